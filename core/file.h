@@ -1,0 +1,49 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace exemplar {
+
+/// The whole content of a file. Throws `InputError` when it is not a readable regular file, is
+/// empty, or is longer than the memory that is available.
+std::string readFile(const std::filesystem::path& path);
+
+/// A path's ending in lower case, with its dot: ".obj"; empty where there is none.
+std::string lowerExtension(const std::filesystem::path& path);
+
+/// A file that is whole or not there: it is written under a temporary name beside its place, with
+/// the same ending, and renamed by `commit`. Without `commit` the temporary file is removed.
+///
+///     OutputFile out(path);
+///     writeWith(library, out.temporaryPath());   // or out.write(bytes)
+///     out.commit();
+///
+/// Every failure (no such folder, no permission, disk full) is an `InputError` naming `path`.
+class OutputFile {
+ public:
+  /// Fails at once where a file could not be created.
+  explicit OutputFile(std::filesystem::path path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  const std::filesystem::path& temporaryPath() const { return temporary_; }
+  /// Makes `bytes` the temporary file's whole content.
+  void write(std::string_view bytes);
+  /// Puts the file in its place.
+  void commit();
+
+ private:
+  std::filesystem::path path_, temporary_;
+};
+
+/// An `OutputFile` written and put in its place at once.
+void writeFile(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace exemplar

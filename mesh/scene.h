@@ -1,0 +1,50 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+
+namespace exemplar {
+
+/// A parametric example: what a scene file (`scenes/NAME.toml`) describes, made.
+///
+/// The geometry reaches past `box` on the sides where the material goes on, so that what is sampled
+/// inside `box` is a window into something larger and the window's faces cut nothing that was not
+/// already there.
+struct Scene {
+  std::string name;
+  TriangleMesh mesh;
+  Box3d box;                         ///< the example: sample here
+  int resolution = 64;               ///< samples along the box's longest side
+  Vec3d scale{2, 2, 1};              ///< the size of a result, in boxes
+  int block = 16;                    ///< block size at the finest level, in samples
+};
+
+struct SceneOptions {
+  /// Replaces the file's seed: another sample of the same process.
+  std::optional<std::uint64_t> seed;
+  /// Multiplies the box: a larger sample of the same process. Components >= 1.
+  Vec3d extent{1, 1, 1};
+};
+
+/// Makes a scene from its file. Kinds: chainmail, fibers, metal, grid, balls, terrain, grass (each
+/// file states its parameters, all with units and ranges; an unknown key is an error). The same file
+/// and options give the same scene, to the byte. Throws `InputError` naming file, line and key.
+Scene readScene(const std::filesystem::path& path, const SceneOptions& options = {});
+
+/// The bundled scene file called `name` ("chainmail"), or a path as it is. Looks in the folder that
+/// EXEMPLAR_SCENES names, in the source tree and in the installed share folder. Throws `InputError`
+/// listing the names there are.
+std::filesystem::path findScene(const std::string& name);
+
+/// The names of the bundled scenes, sorted.
+std::vector<std::string> bundledScenes();
+
+}  // namespace exemplar

@@ -1,0 +1,32 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "core/memory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace exemplar {
+namespace {
+
+TEST(RequireMemory, RefusesWhatNoMachineHas) {
+  try {
+    requireMemory(1e18, "resolution 100000", "use --resolution 512 or less");
+    FAIL() << "a billion gigabytes were granted";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("resolution 100000 needs about 1000 PB"));
+    EXPECT_THAT(e.what(), testing::HasSubstr("use --resolution 512 or less"));
+  }
+}
+
+TEST(RequireMemory, GrantsAMegabyte) { EXPECT_NO_THROW(requireMemory(1e6, "this", "")); }
+
+TEST(PeakResidentBytes, IsWhatAProcessCanHave) {
+  EXPECT_GT(peakResidentBytes(), 100'000u);
+  EXPECT_LT(peakResidentBytes(), 1'000'000'000'000u);
+}
+
+}  // namespace
+}  // namespace exemplar
