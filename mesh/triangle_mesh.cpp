@@ -1,0 +1,176 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "mesh/triangle_mesh.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "core/error.h"
+
+namespace exemplar {
+namespace {
+
+/// Where the sum of three squares and a cross product of differences still stay far from overflow.
+constexpr double kLargestCoordinate = 1e15;
+
+bool allFinite(const std::array<float, 4>& c) {
+  return std::isfinite(c[0]) && std::isfinite(c[1]) && std::isfinite(c[2]) && std::isfinite(c[3]);
+}
+
+void checkCount(std::size_t count, std::size_t wanted, const char* what, const char* ofWhat,
+                const std::string& name) {
+  if (count != 0 && count != wanted) {
+    throw InputError(name + ": the mesh has " + std::to_string(count) + " " + what + " for " +
+                     std::to_string(wanted) + " " + ofWhat);
+  }
+}
+
+/// The index in `textures` of one with the same content as `texture`; added where there is none.
+std::uint32_t addTexture(std::vector<Texture>& textures, const Texture& texture) {
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    if (textures[i].mimeType == texture.mimeType && textures[i].bytes == texture.bytes) {
+      return static_cast<std::uint32_t>(i);
+    }
+  }
+  std::set<std::string> names;
+  for (const Texture& t : textures) names.insert(t.name);
+  Texture added = texture;
+  for (int n = 2; names.count(added.name) != 0; ++n) {
+    const std::size_t dot = std::min(texture.name.rfind('.'), texture.name.size());
+    added.name = texture.name.substr(0, dot) + "_" + std::to_string(n) + texture.name.substr(dot);
+  }
+  textures.push_back(std::move(added));
+  return static_cast<std::uint32_t>(textures.size() - 1);
+}
+
+std::uint32_t addMaterial(std::vector<Material>& materials, const Material& material) {
+  const auto found = std::find(materials.begin(), materials.end(), material);
+  if (found != materials.end()) return static_cast<std::uint32_t>(found - materials.begin());
+  materials.push_back(material);
+  return static_cast<std::uint32_t>(materials.size() - 1);
+}
+
+/// Appends `from`, which stands for `fromCount` elements, to `to`, which stands for `toCount`;
+/// where only one of the two is there, the other's elements become `missing`.
+template <class T>
+void appendAttribute(std::vector<T>& to, std::size_t toCount, const std::vector<T>& from,
+                     std::size_t fromCount, const T& missing) {
+  if (to.empty() && from.empty()) return;
+  to.resize(toCount, missing);
+  to.insert(to.end(), from.begin(), from.end());
+  to.resize(toCount + fromCount, missing);
+}
+
+}  // namespace
+
+void validate(const TriangleMesh& mesh, const std::string& name) {
+  const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size();
+  if (triangles == 0) throw InputError(name + ": the mesh has no triangles");
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const Vec3d& p = mesh.positions[v];
+    if (!isFinite(p)) {
+      throw InputError(name + ": vertex " + std::to_string(v) +
+                       " has a NaN or infinite coordinate");
+    }
+    if (!(std::abs(p.x) < kLargestCoordinate && std::abs(p.y) < kLargestCoordinate &&
+          std::abs(p.z) < kLargestCoordinate)) {
+      throw InputError(name + ": vertex " + std::to_string(v) +
+                       " has a coordinate of 1e15 or more; scale the mesh down");
+    }
+  }
+  for (std::size_t t = 0; t < triangles; ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (v >= vertices) {
+        throw InputError(name + ": triangle " + std::to_string(t) + " names vertex " +
+                         std::to_string(v) + " of " + std::to_string(vertices));
+      }
+    }
+  }
+  checkCount(mesh.colors.size(), vertices, "colours", "vertices", name);
+  checkCount(mesh.uvs.size(), triangles, "texture coordinates", "triangles", name);
+  checkCount(mesh.triangleMaterials.size(), triangles, "material indices", "triangles", name);
+  for (const auto& color : mesh.colors) {
+    if (!allFinite(color)) throw InputError(name + ": a vertex colour is NaN or infinite");
+  }
+  for (const auto& corners : mesh.uvs) {
+    for (const Vec2f& uv : corners) {
+      if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+        throw InputError(name + ": a texture coordinate is NaN or infinite");
+      }
+    }
+  }
+  for (std::size_t t = 0; t < mesh.triangleMaterials.size(); ++t) {
+    if (mesh.triangleMaterials[t] >= mesh.materials.size()) {
+      throw InputError(name + ": triangle " + std::to_string(t) + " names material " +
+                       std::to_string(mesh.triangleMaterials[t]) + " of " +
+                       std::to_string(mesh.materials.size()));
+    }
+  }
+  for (const Material& m : mesh.materials) {
+    if (!allFinite(m.baseColor) || !std::isfinite(m.metallic) || !std::isfinite(m.roughness) ||
+        !isFinite(m.emission)) {
+      throw InputError(name + ": material '" + m.name + "' has a NaN or infinite number");
+    }
+    if (m.baseColorTexture && *m.baseColorTexture >= mesh.textures.size()) {
+      throw InputError(name + ": material '" + m.name + "' names texture " +
+                       std::to_string(*m.baseColorTexture) + " of " +
+                       std::to_string(mesh.textures.size()));
+    }
+  }
+}
+
+Box3d boundingBox(const TriangleMesh& mesh) {
+  Box3d box;
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) box.add(mesh.positions[v]);
+  }
+  return box;
+}
+
+Vec3d areaNormal(const TriangleMesh& mesh, std::size_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  const Vec3d& origin = mesh.positions[a];
+  return cross(mesh.positions[b] - origin, mesh.positions[c] - origin);
+}
+
+void append(TriangleMesh& mesh, const TriangleMesh& other) {
+  if (&mesh == &other) {
+    append(mesh, TriangleMesh(other));
+    return;
+  }
+  const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size();
+  if (vertices + other.positions.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError("the joined mesh would have more than 4294967295 vertices; use less of it");
+  }
+  std::vector<std::uint32_t> materialOf;
+  for (Material material : other.materials) {
+    if (material.baseColorTexture) {
+      material.baseColorTexture =
+          addTexture(mesh.textures, other.textures[*material.baseColorTexture]);
+    }
+    materialOf.push_back(addMaterial(mesh.materials, material));
+  }
+  for (const Texture& texture : other.textures) addTexture(mesh.textures, texture);
+
+  std::vector<std::uint32_t> otherMaterials(other.triangleMaterials);
+  for (std::uint32_t& m : otherMaterials) m = materialOf[m];
+  const bool fillMaterials =
+      (mesh.hasMaterials() && !other.hasMaterials() && !other.triangles.empty()) ||
+      (!mesh.hasMaterials() && other.hasMaterials() && triangles != 0);
+  const std::uint32_t defaultMaterial = fillMaterials ? addMaterial(mesh.materials, Material{}) : 0;
+  appendAttribute(mesh.triangleMaterials, triangles, otherMaterials, other.triangles.size(),
+                  defaultMaterial);
+  appendAttribute(mesh.colors, vertices, other.colors, other.positions.size(), {1, 1, 1, 1});
+  appendAttribute(mesh.uvs, triangles, other.uvs, other.triangles.size(), {});
+
+  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+  mesh.triangles.reserve(triangles + other.triangles.size());
+  const std::uint32_t shift = static_cast<std::uint32_t>(vertices);
+  for (const auto& [a, b, c] : other.triangles) {
+    mesh.triangles.push_back({a + shift, b + shift, c + shift});
+  }
+}
+
+}  // namespace exemplar
