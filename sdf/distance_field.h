@@ -10,13 +10,14 @@ namespace exemplar {
 
 /// A signed distance field, sampled densely: negative inside, world units.
 ///
-/// A field made by `meshToSdf` holds the exact distance to the surface, clamped to ±`truncation`. A synthesized
-/// field is right in sign and nearly a distance within each copied part; `redistance` makes it one again.
+/// A field made by `meshToSdf` holds the exact distance to the surface, clamped to ±`truncation`. A
+/// synthesized field is right in sign and nearly a distance within each copied part; `redistance`
+/// makes it one again.
 struct DistanceField {
   Array3D<float> values;
-  double voxelSize = 1;   ///< distance of neighbouring samples, world units
-  Vec3d origin{};         ///< world position of sample (0, 0, 0)
-  float truncation = 0;   ///< |values| <= truncation, world units; infinite for a full field
+  double voxelSize = 1;  ///< distance of neighbouring samples, world units
+  Vec3d origin{};        ///< world position of sample (0, 0, 0)
+  float truncation = 0;  ///< |values| <= truncation, world units; infinite for a full field
 
   const Vec3i& size() const { return values.size(); }
   /// The world position of an index, which may be fractional or outside.

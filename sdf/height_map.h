@@ -32,17 +32,19 @@ struct HeightMapFileOptions {
 /// Whether the path ends in `.png .pgm .asc`, in any case.
 bool isHeightMapFile(const std::filesystem::path& path);
 
-/// Reads 16- or 8-bit grey `.png`, `.pgm` (P2 and P5) or an ESRI `.asc` grid (NODATA cells are filled
-/// from their neighbours). Throws `InputError` naming the file for anything malformed or smaller than 2 x 2.
-HeightMap readHeightMap(const std::filesystem::path& path, const HeightMapFileOptions& options = {});
+/// Reads 16- or 8-bit grey `.png`, `.pgm` (P2 and P5) or an ESRI `.asc` grid (NODATA cells are
+/// filled from their neighbours). Throws `InputError` naming the file for anything malformed or
+/// smaller than 2 x 2.
+HeightMap readHeightMap(const std::filesystem::path& path,
+                        const HeightMapFileOptions& options = {});
 
-/// Writes heights: `.asc` as they are, `.png` and `.pgm` as 16-bit steps of `heightScale`, clamped to
-/// 0..65535. Whole or not at all.
+/// Writes heights: `.asc` as they are, `.png` and `.pgm` as 16-bit steps of `heightScale`, clamped
+/// to 0..65535. Whole or not at all.
 void writeHeightMap(const std::filesystem::path& path, const HeightMap& map,
                     const HeightMapFileOptions& options = {});
 
-/// A height map as a closed solid: its surface, walls along its border and a floor `base` world units
-/// below its lowest point (`base` > 0).
+/// A height map as a closed solid: its surface, walls along its border and a floor `base` world
+/// units below its lowest point (`base` > 0).
 TriangleMesh heightMapToMesh(const HeightMap& map, double base);
 
 /// The height, at each column of samples, of the topmost crossing from outside to inside, linearly

@@ -13,20 +13,20 @@ namespace exemplar {
 
 /// Where the sign of the distance comes from.
 enum class SignSource {
-  Automatic,      ///< Flood for closed, manifold, oriented meshes without self-crossings; else Winding
-  Flood,          ///< OpenVDB's flood fill from outside: for closed meshes
+  Automatic,  ///< Flood for closed, manifold, oriented meshes without self-crossings; else Winding
+  Flood,      ///< OpenVDB's flood fill from outside: for closed meshes
   WindingNumber,  ///< generalized winding number > 1/2: open, self-crossing and soup meshes
   RayParity,      ///< majority of the parities of rays in several directions (Embree): closed soups
                   ///< whose triangles are not consistently oriented
 };
 
 struct MeshToSdfOptions {
-  double voxelSize = 0;          ///< world units, > 0; 0 means: `resolution` decides
-  int resolution = 64;           ///< samples along the box's longest side where voxelSize is 0; 1..4096
-  std::optional<Box3d> box;      ///< what to sample; the mesh's bounding box by default
-  int padding = 0;               ///< voxels added around the box on each side, >= 0
-  double halfWidth = 3;          ///< the distance is exact up to this many voxels, then clamped; > 0;
-                                 ///< infinite: exact everywhere
+  double voxelSize = 0;      ///< world units, > 0; 0 means: `resolution` decides
+  int resolution = 64;       ///< samples along the box's longest side where voxelSize is 0; 1..4096
+  std::optional<Box3d> box;  ///< what to sample; the mesh's bounding box by default
+  int padding = 0;           ///< voxels added around the box on each side, >= 0
+  double halfWidth = 3;      ///< the distance is exact up to this many voxels, then clamped; > 0;
+                             ///< infinite: exact everywhere
   SignSource sign = SignSource::Automatic;
 };
 

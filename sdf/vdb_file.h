@@ -10,13 +10,14 @@
 
 namespace exemplar {
 
-/// Writes a field as one float grid "surface" of class level set (`.vdb`), world transform included,
-/// as Blender, Houdini and `vdb_print` read it. Samples outside ±truncation become background tiles.
-/// Whole or not at all.
+/// Writes a field as one float grid "surface" of class level set (`.vdb`), world transform
+/// included, as Blender, Houdini and `vdb_print` read it. Samples outside ±truncation become
+/// background tiles. Whole or not at all.
 void writeVdb(const std::filesystem::path& path, const DistanceField& field);
 
-/// Reads the first float grid of a `.vdb` (a level set, or a fog volume whose 0.5 becomes the surface)
-/// as a dense field over its active box. Voxels must be cubes. Throws `InputError` naming the file.
+/// Reads the first float grid of a `.vdb` (a level set, or a fog volume whose 0.5 becomes the
+/// surface) as a dense field over its active box. Voxels must be cubes. Throws `InputError` naming
+/// the file.
 DistanceField readVdb(const std::filesystem::path& path);
 
 /// Origins as an int32 vector grid "origin" (example cell i, j, k) and an int32 grid "source"

@@ -1,0 +1,265 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "sdf/triangle_tree.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace exemplar {
+namespace {
+
+constexpr std::uint32_t kLeafTriangles = 4;
+constexpr std::uint32_t kParallelTriangles = 4096;
+// How many times its radius a cluster must be away for its expansion to stand in for it.
+constexpr double kFar = 2.3;
+constexpr std::size_t kMaxDepth = 64;
+
+Vec3d centroid(const Corners& t) { return (t[0] + t[1] + t[2]) / 3.0; }
+Vec3d areaVector(const Corners& t) { return cross(t[1] - t[0], t[2] - t[0]) * 0.5; }
+
+// Leaves of a tree over n triangles, halved until a part fits in a leaf. At each depth the parts
+// have one of two neighbouring sizes, so the pair for (m, m + 1) follows from the pair for m / 2.
+std::pair<std::uint32_t, std::uint32_t> leafCounts(std::uint32_t m) {
+  if (m + 1 <= kLeafTriangles) return {1, 1};
+  const auto [a, b] = leafCounts(m / 2);
+  const std::uint32_t low = m <= kLeafTriangles ? 1 : m % 2 == 0 ? 2 * a : a + b;
+  const std::uint32_t high = m % 2 == 0 ? a + b : 2 * b;
+  return {low, high};
+}
+std::uint32_t leafCount(std::uint32_t n) { return leafCounts(n).first; }
+
+double squaredBoxDistance(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
+  const Vec3d d = max(max(low - p, p - high), Vec3d{0, 0, 0});
+  return dot(d, d);
+}
+
+// Solid angle over 4 pi, by van Oosterom and Strackee's formula (1983).
+double solidAngle(const Corners& t, const Vec3d& p) {
+  const Vec3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
+  const double la = length(a), lb = length(b), lc = length(c);
+  const double numerator = dot(a, cross(b, c));
+  const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  if (numerator == 0) return 0;  // in the triangle's plane
+  return std::atan2(numerator, denominator) * (0.5 * std::numbers::inv_pi);
+}
+
+}  // namespace
+
+// Ericson, "Real-time collision detection" (2005), section 5.1.5: which of the triangle's seven
+// Voronoi regions holds the point.
+double squaredDistance(const Vec3d& p, const Corners& t) {
+  const Vec3d ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return dot(ap, ap);
+  const Vec3d bp = p - t[1];
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return dot(bp, bp);
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    const Vec3d q = ap - ab * (d1 / (d1 - d3));
+    return dot(q, q);
+  }
+  const Vec3d cp = p - t[2];
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return dot(cp, cp);
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    const Vec3d q = ap - ac * (d2 / (d2 - d6));
+    return dot(q, q);
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const Vec3d q = bp - (t[2] - t[1]) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    return dot(q, q);
+  }
+  const double sum = va + vb + vc;
+  const Vec3d q = ap - ab * (vb / sum) - ac * (vc / sum);
+  return dot(q, q);
+}
+
+TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
+  const auto n = static_cast<std::uint32_t>(triangles_.size());
+  if (n == 0) return;
+  order_.resize(n);
+  for (std::uint32_t t = 0; t < n; ++t) order_[t] = t;
+  leaves_.resize(n);
+  nodes_.resize(2 * static_cast<std::size_t>(leafCount(n)) - 1);
+  moments_.resize(nodes_.size());
+  build(0, 0, n);
+}
+
+void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+  Node& n = nodes_[node];
+  n.first = first;
+  n.count = count;
+  if (count <= kLeafTriangles) {
+    n.low = Vec3d{1, 1, 1} * std::numeric_limits<double>::infinity();
+    n.high = -n.low;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      leaves_[i] = triangles_[order_[i]];
+      for (const Vec3d& corner : leaves_[i]) {
+        n.low = min(n.low, corner);
+        n.high = max(n.high, corner);
+      }
+    }
+    setMoments(node);
+    return;
+  }
+  Vec3d low = Vec3d{1, 1, 1} * std::numeric_limits<double>::infinity(), high = -low;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const Vec3d c = centroid(triangles_[order_[i]]);
+    low = min(low, c);
+    high = max(high, c);
+  }
+  const Vec3d size = high - low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const auto begin = order_.begin() + first;
+  // The index makes the order total, so that the same triangles always give the same tree.
+  std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t a, std::uint32_t b) {
+    const double ca = centroid(triangles_[a])[axis], cb = centroid(triangles_[b])[axis];
+    return ca != cb ? ca < cb : a < b;
+  });
+  const std::uint32_t half = count / 2;
+  const std::uint32_t left = node + 1, right = node + 2 * leafCount(half);
+  n.right = right;
+  const auto buildLeft = [&] { build(left, first, half); };
+  const auto buildRight = [&] { build(right, first + half, count - half); };
+  if (count >= kParallelTriangles) {
+    tbb::parallel_invoke(buildLeft, buildRight);
+  } else {
+    buildLeft();
+    buildRight();
+  }
+  n.low = min(nodes_[left].low, nodes_[right].low);
+  n.high = max(nodes_[left].high, nodes_[right].high);
+  setMoments(node);
+}
+
+void TriangleTree::setMoments(std::uint32_t node) {
+  const Node& n = nodes_[node];
+  Moments& m = moments_[node];
+  Vec3d weighted{};
+  double weight = 0;
+  for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+    const Vec3d a = areaVector(leaves_[i]);
+    const double area = length(a);
+    m.area += a;
+    weighted += centroid(leaves_[i]) * area;
+    weight += area;
+  }
+  m.center = weight > 0 ? weighted / weight : (n.low + n.high) * 0.5;
+  double radius2 = 0;
+  for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+    const Vec3d a = areaVector(leaves_[i]);
+    const Vec3d c = centroid(leaves_[i]) - m.center;
+    m.spread[0] += c.x * a.x;
+    m.spread[1] += c.y * a.y;
+    m.spread[2] += c.z * a.z;
+    m.spread[3] += (c.x * a.y + c.y * a.x) * 0.5;
+    m.spread[4] += (c.x * a.z + c.z * a.x) * 0.5;
+    m.spread[5] += (c.y * a.z + c.z * a.y) * 0.5;
+    for (const Vec3d& corner : leaves_[i]) {
+      const Vec3d d = corner - m.center;
+      radius2 = std::max(radius2, dot(d, d));
+    }
+  }
+  m.reach2 = kFar * kFar * radius2;
+}
+
+double TriangleTree::distance(const Vec3d& p, double limit) const {
+  if (nodes_.empty()) return limit;
+  double best2 = limit * limit;
+  std::array<std::pair<std::uint32_t, double>, kMaxDepth> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {0, squaredBoxDistance(p, nodes_[0].low, nodes_[0].high)};
+  bool found = false;
+  while (depth > 0) {
+    const auto [node, bound2] = stack[--depth];
+    if (bound2 >= best2) continue;
+    const Node& n = nodes_[node];
+    if (n.right == 0) {
+      for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+        const double d2 = squaredDistance(p, leaves_[i]);
+        if (d2 < best2) {
+          best2 = d2;
+          found = true;
+        }
+      }
+      continue;
+    }
+    const Node &l = nodes_[node + 1], &r = nodes_[n.right];
+    const double left2 = squaredBoxDistance(p, l.low, l.high);
+    const double right2 = squaredBoxDistance(p, r.low, r.high);
+    // The nearer child last, so that it comes off the stack first.
+    if (left2 <= right2) {
+      stack[depth++] = {n.right, right2};
+      stack[depth++] = {node + 1, left2};
+    } else {
+      stack[depth++] = {node + 1, left2};
+      stack[depth++] = {n.right, right2};
+    }
+  }
+  return found ? std::sqrt(best2) : limit;
+}
+
+double TriangleTree::windingNumber(const Vec3d& p) const {
+  if (nodes_.empty()) return 0;
+  double near = 0, far = 0;
+  std::array<std::uint32_t, kMaxDepth> stack;
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t node = stack[--depth];
+    const Node& n = nodes_[node];
+    const Moments& m = moments_[node];
+    const Vec3d d = m.center - p;
+    const double r2 = dot(d, d);
+    if (r2 > m.reach2) {
+      const double inverse2 = 1 / r2, inverse3 = inverse2 * std::sqrt(inverse2);
+      const auto& s = m.spread;
+      const double trace = s[0] + s[1] + s[2];
+      const double quadratic = s[0] * d.x * d.x + s[1] * d.y * d.y + s[2] * d.z * d.z +
+                               2 * (s[3] * d.x * d.y + s[4] * d.x * d.z + s[5] * d.y * d.z);
+      far += (dot(m.area, d) + trace - 3 * quadratic * inverse2) * inverse3;
+    } else if (n.right == 0) {
+      for (std::uint32_t i = n.first; i < n.first + n.count; ++i) near += solidAngle(leaves_[i], p);
+    } else {
+      stack[depth++] = n.right;
+      stack[depth++] = node + 1;
+    }
+  }
+  return near + far * (0.25 * std::numbers::inv_pi);
+}
+
+void TriangleTree::visitBox(const Vec3d& low, const Vec3d& high,
+                            const std::function<void(std::uint32_t)>& visit) const {
+  if (nodes_.empty()) return;
+  const auto meets = [&](const Vec3d& l, const Vec3d& h) {
+    return l.x <= high.x && l.y <= high.y && l.z <= high.z && h.x >= low.x && h.y >= low.y &&
+           h.z >= low.z;
+  };
+  std::array<std::uint32_t, kMaxDepth> stack;
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t node = stack[--depth];
+    const Node& n = nodes_[node];
+    if (!meets(n.low, n.high)) continue;
+    if (n.right == 0) {
+      for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+        const Corners& t = leaves_[i];
+        if (meets(min(min(t[0], t[1]), t[2]), max(max(t[0], t[1]), t[2]))) visit(order_[i]);
+      }
+    } else {
+      stack[depth++] = n.right;
+      stack[depth++] = node + 1;
+    }
+  }
+}
+
+}  // namespace exemplar
