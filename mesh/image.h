@@ -22,9 +22,7 @@ struct Image {
   const Sample* at(int x, int y) const {
     return &pixels[(static_cast<std::size_t>(y) * width + x) * channels];
   }
-  Sample* at(int x, int y) {
-    return &pixels[(static_cast<std::size_t>(y) * width + x) * channels];
-  }
+  Sample* at(int x, int y) { return &pixels[(static_cast<std::size_t>(y) * width + x) * channels]; }
 };
 
 using Image8 = Image<std::uint8_t>;

@@ -1,0 +1,17 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "mesh/image.h"
+
+namespace exemplar {
+
+/// A JPEG file in memory as grey or RGB. Throws `InputError`, with `name` in front, for anything
+/// that libjpeg cannot make whole sense of, for CMYK, and for a truncated file.
+Image8 decodeJpeg(std::string_view bytes, const std::string& name);
+
+}  // namespace exemplar

@@ -1,0 +1,167 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "mesh/mesh_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <unordered_map>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "mesh/color.h"
+#include "mesh/mesh_formats.h"
+
+namespace exemplar {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Format { None, Obj, Ply, Stl, Off, Glb };
+
+Format formatOf(const fs::path& path) {
+  const std::string ending = lowerExtension(path);
+  if (ending == ".obj") return Format::Obj;
+  if (ending == ".ply") return Format::Ply;
+  if (ending == ".stl") return Format::Stl;
+  if (ending == ".off") return Format::Off;
+  return Format::None;
+}
+
+bool isYUp(Format format, UpAxis up) {
+  if (up != UpAxis::Default) return up == UpAxis::Y;
+  return format == Format::Obj || format == Format::Glb;
+}
+
+[[noreturn]] void failAtEnding(const fs::path& path) {
+  throw InputError(path.string() +
+                   ": not a mesh file's ending; use .obj, .ply, .stl, .off or .glb");
+}
+
+/// The file called `name` in a file, as seen from the folder of that file; files that were written
+/// on another machine often name a folder that is not here, so the name alone is tried after that.
+std::optional<std::string> readSibling(const fs::path& folder, std::string name) {
+  for (char& c : name) {
+    if (c == '\\') c = '/';
+  }
+  if (name.find('\0') != std::string::npos) return std::nullopt;
+  const fs::path path(name);
+  for (const fs::path& candidate : {path, path.filename()}) {
+    std::error_code error;
+    const fs::path full = folder / candidate;
+    if (candidate.empty() || candidate.is_absolute() || !fs::is_regular_file(full, error)) continue;
+    return readFile(full);
+  }
+  return std::nullopt;
+}
+
+template <class T>
+void appendAny(std::string& text, T value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  text.append(buffer, end);
+}
+
+}  // namespace
+
+bool isMeshFile(const fs::path& path) { return formatOf(path) != Format::None; }
+
+TriangleMesh readMesh(const fs::path& path, const MeshFileOptions& options) {
+  const Format format = formatOf(path);
+  if (format == Format::None) failAtEnding(path);
+  const std::string bytes = readFile(path);
+  const std::string name = path.string();
+  const SiblingFile sibling = [&](const std::string& file) {
+    return readSibling(path.parent_path(), file);
+  };
+  TriangleMesh mesh = format == Format::Obj   ? parseObj(bytes, name, sibling)
+                      : format == Format::Ply ? parsePly(bytes, name)
+                      : format == Format::Stl ? parseStl(bytes, name)
+                      : parseOff(bytes, name);
+  if (isYUp(format, options.up)) {
+    for (Vec3d& p : mesh.positions) p = fromFileAxes(p, true);
+  }
+  validate(mesh, name);
+  return mesh;
+}
+
+void writeMesh(const fs::path& path, const TriangleMesh& mesh, const MeshFileOptions& options) {
+  const Format format = formatOf(path);
+  if (format == Format::None) failAtEnding(path);
+  validate(mesh, path.string());
+  const bool yUp = isYUp(format, options.up);
+  if (format != Format::Obj) {
+    OutputFile out(path);
+    out.write(format == Format::Ply   ? formatPly(mesh, yUp)
+              : format == Format::Stl ? formatStl(mesh, yUp)
+              : formatOff(mesh, yUp));
+    out.commit();
+    return;
+  }
+  OutputFile out(path);
+  const ObjFiles files = formatObj(mesh, path.stem().string(), yUp);
+  out.write(files.obj);
+  // All are written before the first is put in its place, and the .obj comes last: when it is
+  // there, so is what it names.
+  std::vector<std::unique_ptr<OutputFile>> siblings;
+  for (const NamedBytes& file : files.siblings) {
+    siblings.push_back(std::make_unique<OutputFile>(path.parent_path() / file.name));
+    siblings.back()->write(file.bytes);
+  }
+  for (const auto& file : siblings) file->commit();
+  out.commit();
+}
+
+const char* coordinateProblem(const Vec3d& p) {
+  if (!isFinite(p)) return "has a NaN or infinite coordinate";
+  if (!(std::abs(p.x) < 1e15 && std::abs(p.y) < 1e15 && std::abs(p.z) < 1e15)) {
+    return "has a coordinate of 1e15 or more";
+  }
+  return nullptr;
+}
+
+std::string imageMimeType(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
+  if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
+  return "";
+}
+
+void setFaceColors(TriangleMesh& mesh, const std::vector<std::array<std::uint8_t, 4>>& colors) {
+  std::unordered_map<std::uint32_t, std::uint32_t> materialOf;
+  mesh.triangleMaterials.clear();
+  mesh.triangleMaterials.reserve(colors.size());
+  for (const auto& c : colors) {
+    const std::uint32_t key = (std::uint32_t{c[0]} << 24) | (std::uint32_t{c[1]} << 16) |
+                              (std::uint32_t{c[2]} << 8) | c[3];
+    const auto [found, added] =
+        materialOf.try_emplace(key, static_cast<std::uint32_t>(mesh.materials.size()));
+    if (added) {
+      constexpr char kDigits[] = "0123456789abcdef";
+      Material material{.name = "color_", .baseColor = fromRgba8(c)};
+      for (const std::uint8_t sample : c) {
+        material.name += kDigits[sample / 16];
+        material.name += kDigits[sample % 16];
+      }
+      mesh.materials.push_back(std::move(material));
+    }
+    mesh.triangleMaterials.push_back(found->second);
+  }
+}
+
+std::array<std::uint8_t, 4> toRgba8(const std::array<float, 4>& c) {
+  const float alpha = std::min(std::max(c[3], 0.0f), 1.0f);
+  return {linearToSrgb8(c[0]), linearToSrgb8(c[1]), linearToSrgb8(c[2]),
+          static_cast<std::uint8_t>(std::lround(alpha * 255))};
+}
+
+std::array<float, 4> fromRgba8(const std::array<std::uint8_t, 4>& c) {
+  return {srgb8ToLinear(c[0]), srgb8ToLinear(c[1]), srgb8ToLinear(c[2]),
+          static_cast<float>(c[3]) / 255};
+}
+
+void appendNumber(std::string& text, double value) { appendAny(text, value); }
+void appendNumber(std::string& text, float value) { appendAny(text, value); }
+void appendNumber(std::string& text, std::uint32_t value) { appendAny(text, value); }
+
+}  // namespace exemplar

@@ -1,0 +1,70 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+
+namespace exemplar {
+
+/// The content of a file that lies beside the one being read, or nothing when there is none.
+using SiblingFile = std::function<std::optional<std::string>(const std::string& name)>;
+
+// Each format in memory. `name` is what errors call the file; every parser throws `InputError` for
+// what is malformed and never reads outside of `bytes`. Parsers leave coordinates as they are in
+// the file; formatters turn z up into y up where `yUp` says so. What a parser returns has finite
+// coordinates below 1e15 and valid indices, but may lack triangles. A formatter's mesh is valid.
+
+TriangleMesh parseObj(std::string_view bytes, const std::string& name, const SiblingFile& sibling);
+TriangleMesh parsePly(std::string_view bytes, const std::string& name);
+TriangleMesh parseStl(std::string_view bytes, const std::string& name);
+TriangleMesh parseOff(std::string_view bytes, const std::string& name);
+TriangleMesh parseGlb(std::string_view bytes, const std::string& name, const SiblingFile& sibling);
+
+/// A file to be written beside another one.
+struct NamedBytes {
+  std::string name;
+  std::string bytes;
+};
+
+/// The `.obj` of a mesh, and what it refers to: `STEM.mtl` and `STEM_` before each texture's name.
+struct ObjFiles {
+  std::string obj;
+  std::vector<NamedBytes> siblings;
+};
+ObjFiles formatObj(const TriangleMesh& mesh, const std::string& stem, bool yUp);
+std::string formatPly(const TriangleMesh& mesh, bool yUp);
+std::string formatStl(const TriangleMesh& mesh, bool yUp);
+std::string formatOff(const TriangleMesh& mesh, bool yUp);
+std::string formatGlb(const TriangleMesh& mesh, bool yUp);
+
+/// World to file, for a file with y up, and back. Subtracting from 0 makes no negative zeros.
+inline Vec3d toFileAxes(const Vec3d& p, bool yUp) { return yUp ? Vec3d{p.x, p.z, 0 - p.y} : p; }
+inline Vec3d fromFileAxes(const Vec3d& p, bool yUp) { return yUp ? Vec3d{p.x, 0 - p.z, p.y} : p; }
+
+/// Why a coordinate cannot be taken ("is NaN or infinite"), or null.
+const char* coordinateProblem(const Vec3d& p);
+
+/// What a picture's first bytes say it is: "image/png", "image/jpeg", or empty.
+std::string imageMimeType(std::string_view bytes);
+
+/// Materials of triangles that come with an sRGB colour each, as faces do in `.ply` and `.off`: one
+/// material for each colour, in the order in which they come. `colors` has one for each triangle.
+void setFaceColors(TriangleMesh& mesh, const std::vector<std::array<std::uint8_t, 4>>& colors);
+
+/// A linear RGBA colour as four 8-bit samples: sRGB, and opacity as it is.
+std::array<std::uint8_t, 4> toRgba8(const std::array<float, 4>& color);
+std::array<float, 4> fromRgba8(const std::array<std::uint8_t, 4>& color);
+
+/// Appends the shortest text that reads back as the same number.
+void appendNumber(std::string& text, double value);
+void appendNumber(std::string& text, float value);
+void appendNumber(std::string& text, std::uint32_t value);
+
+}  // namespace exemplar

@@ -1,0 +1,404 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <set>
+#include <unordered_map>
+
+#include "core/error.h"
+#include "mesh/color.h"
+#include "mesh/mesh_formats.h"
+#include "mesh/mtl.h"
+#include "mesh/polygon.h"
+#include "mesh/text_scanner.h"
+
+namespace exemplar {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffff;
+
+/// Reads an `.obj`. Materials are collected by name while reading and looked up at the end, since
+/// libraries may be named anywhere.
+class ObjReader {
+ public:
+  ObjReader(std::string_view bytes, const std::string& name, const SiblingFile& sibling)
+      : in_(bytes, name, true), sibling_(sibling) {}
+
+  TriangleMesh read() {
+    while (in_.nextLine()) {
+      const std::string_view key = in_.word();
+      if (key == "v") {
+        readVertex();
+      } else if (key == "vt") {
+        readUv();
+      } else if (key == "f") {
+        readFace();
+      } else if (key == "usemtl") {
+        useMaterial(std::string(in_.rest()));
+      } else if (key == "mtllib") {
+        readLibrary(std::string(in_.rest()));
+      }
+    }
+    if (hasUvs_) resolveUvs();
+    resolveMaterials();
+    return std::move(mesh_);
+  }
+
+ private:
+  struct Corner {
+    std::uint32_t position, uv;
+  };
+
+  void readVertex() {
+    Vec3d p;
+    p.x = in_.number("x");
+    p.y = in_.number("y");
+    p.z = in_.number("z");
+    if (const char* problem = coordinateProblem(p)) in_.fail(std::string("the vertex ") + problem);
+    double more[4];
+    int count = 0;
+    while (count < 4 && !in_.atLineEnd()) more[count++] = in_.number("a vertex's number");
+    mesh_.positions.push_back(p);
+    // x y z [w] or x y z r g b [a].
+    if (count >= 3) {
+      mesh_.colors.resize(mesh_.positions.size() - 1, {1, 1, 1, 1});
+      const auto linear = [](double c) { return static_cast<float>(srgbToLinear(c)); };
+      mesh_.colors.push_back({linear(more[0]), linear(more[1]), linear(more[2]),
+                              count == 4 ? static_cast<float>(more[3]) : 1.0f});
+      for (int i = 0; i < count; ++i) {
+        if (!(std::abs(more[i]) < 1e6)) in_.fail("a vertex colour should be between 0 and 1");
+      }
+    } else if (!mesh_.colors.empty()) {
+      mesh_.colors.push_back({1, 1, 1, 1});
+    }
+    if (mesh_.positions.size() == kNone) in_.fail("more than 4294967294 vertices");
+  }
+
+  void readUv() {
+    const Vec2f uv{static_cast<float>(in_.number("u")),
+                   in_.atLineEnd() ? 0.0f : static_cast<float>(in_.number("v"))};
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+      in_.fail("the texture coordinate is NaN or infinite");
+    }
+    uvs_.push_back(uv);
+  }
+
+  /// An index from the file, from 1 or backwards from -1, as an index from 0.
+  std::uint32_t index(std::size_t count, const char* what) {
+    const std::int64_t number = in_.integerPrefix(what);
+    const std::int64_t n = static_cast<std::int64_t>(count);
+    const std::int64_t i = number > 0 ? number - 1 : n + number;
+    if (number == 0 || i < 0 || i >= n) {
+      in_.fail(std::string(what) + " " + std::to_string(number) + " does not exist: there are " +
+               std::to_string(count) + " so far");
+    }
+    return static_cast<std::uint32_t>(i);
+  }
+
+  void readFace() {
+    corners_.clear();
+    while (!in_.atLineEnd()) {
+      Corner corner{index(mesh_.positions.size(), "vertex"), kNone};
+      if (in_.take('/')) {
+        if (in_.peekHere() != '/' && !in_.atWordEnd()) {
+          corner.uv = index(uvs_.size(), "texture coordinate");
+        }
+        // The normal's index is not needed; that it is a number is checked.
+        if (in_.take('/') && !in_.atWordEnd()) in_.integerPrefix("the normal's index");
+      }
+      if (!in_.atWordEnd()) in_.fail("a face's corner should be V, V/T, V//N or V/T/N");
+      corners_.push_back(corner);
+    }
+    if (corners_.size() < 3) in_.fail("a face needs three corners or more");
+    if (corners_.size() == 3) {
+      addTriangle(corners_[0], corners_[1], corners_[2]);
+      return;
+    }
+    points_.clear();
+    pieces_.clear();
+    for (const Corner& c : corners_) points_.push_back(mesh_.positions[c.position]);
+    if (!triangulate(points_, pieces_)) {
+      in_.fail("a concave face has " + std::to_string(corners_.size()) + " corners; at most " +
+               std::to_string(kMostCorners) + " can be cut into triangles");
+    }
+    for (const auto& [a, b, c] : pieces_) addTriangle(corners_[a], corners_[b], corners_[c]);
+  }
+
+  void addTriangle(const Corner& a, const Corner& b, const Corner& c) {
+    mesh_.triangles.push_back({a.position, b.position, c.position});
+    uvIndices_.push_back({a.uv, b.uv, c.uv});
+    hasUvs_ = hasUvs_ || a.uv != kNone || b.uv != kNone || c.uv != kNone;
+    mesh_.triangleMaterials.push_back(material_);
+  }
+
+  void resolveUvs() {
+    mesh_.uvs.reserve(uvIndices_.size());
+    const auto at = [&](std::uint32_t i) { return i == kNone ? Vec2f{} : uvs_[i]; };
+    for (const auto& [a, b, c] : uvIndices_) mesh_.uvs.push_back({at(a), at(b), at(c)});
+  }
+
+  void useMaterial(const std::string& name) {
+    const auto [found, added] =
+        nameIndex_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
+    if (added) names_.push_back(name);
+    material_ = found->second;
+  }
+
+  void readLibrary(const std::string& file) {
+    // One name that may hold blanks, or several names.
+    if (addLibrary(file)) return;
+    for (std::size_t begin = 0; begin < file.size();) {
+      const std::size_t end = std::min(file.find_first_of(" \t", begin), file.size());
+      if (end != begin && end - begin != file.size()) addLibrary(file.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+
+  bool addLibrary(const std::string& file) {
+    if (!libraries_.insert(file).second) return true;
+    const std::optional<std::string> bytes = sibling_(file);
+    if (!bytes) return false;
+    for (MtlMaterial& m : parseMtl(*bytes, in_.name() + ": " + TextScanner::shown(file))) {
+      library_.push_back(std::move(m));
+    }
+    return true;
+  }
+
+  /// Materials that faces use, in the order of the libraries, then those that no library has in the
+  /// order of the faces, then a default one for faces without any.
+  void resolveMaterials() {
+    std::vector<bool> isUsed(names_.size() + 1, false);
+    for (const std::uint32_t m : mesh_.triangleMaterials)
+      isUsed[m == kNone ? names_.size() : m] = true;
+    if (std::find(isUsed.begin(), isUsed.end() - 1, true) == isUsed.end() - 1) {
+      mesh_.triangleMaterials.clear();
+      return;
+    }
+    std::vector<std::uint32_t> materialOf(names_.size() + 1, kNone);
+    for (MtlMaterial& m : library_) {
+      const auto found = nameIndex_.find(m.material.name);
+      if (found == nameIndex_.end() || !isUsed[found->second]) continue;
+      if (materialOf[found->second] != kNone) continue;  // defined twice: the first one holds
+      materialOf[found->second] = static_cast<std::uint32_t>(mesh_.materials.size());
+      m.material.baseColorTexture = loadTexture(m.baseColorFile);
+      mesh_.materials.push_back(std::move(m.material));
+    }
+    for (std::size_t i = 0; i <= names_.size(); ++i) {
+      if (!isUsed[i] || materialOf[i] != kNone) continue;
+      materialOf[i] = static_cast<std::uint32_t>(mesh_.materials.size());
+      mesh_.materials.push_back(i < names_.size() ? Material{.name = names_[i]} : Material{});
+    }
+    for (std::uint32_t& m : mesh_.triangleMaterials) m = materialOf[m == kNone ? names_.size() : m];
+  }
+
+  /// The texture in a file; none where the file is not there or is no PNG or JPEG.
+  std::optional<std::uint32_t> loadTexture(const std::string& file) {
+    if (file.empty()) return std::nullopt;
+    const auto [found, added] = textureOf_.try_emplace(file);
+    if (!added) return found->second;
+    std::optional<std::string> bytes = sibling_(file);
+    const std::string mimeType = bytes ? imageMimeType(*bytes) : "";
+    if (mimeType.empty()) return std::nullopt;
+    found->second = static_cast<std::uint32_t>(mesh_.textures.size());
+    mesh_.textures.push_back({textureName(file), mimeType, std::move(*bytes)});
+    return found->second;
+  }
+
+  /// A texture's own name: without folders and without the "STEM_" that `formatObj` puts in front.
+  std::string textureName(const std::string& file) const {
+    const auto baseName = [](const std::string& path) {
+      return path.substr(path.find_last_of("/\\") + 1);
+    };
+    std::string base = baseName(file);
+    std::string stem = baseName(in_.name());
+    stem = stem.substr(0, stem.rfind('.')) + "_";
+    if (base.size() > stem.size() && base.starts_with(stem)) base = base.substr(stem.size());
+    std::string unique = base;
+    const auto isTaken = [&] {
+      return std::any_of(mesh_.textures.begin(), mesh_.textures.end(),
+                         [&](const Texture& t) { return t.name == unique; });
+    };
+    for (int n = 2; isTaken(); ++n) unique = std::to_string(n) + "_" + base;
+    return unique;
+  }
+
+  TextScanner in_;
+  const SiblingFile& sibling_;
+  TriangleMesh mesh_;
+  std::vector<Vec2f> uvs_;
+  std::vector<std::array<std::uint32_t, 3>> uvIndices_;
+  bool hasUvs_ = false;
+
+  std::uint32_t material_ = kNone;
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::uint32_t> nameIndex_;
+  std::vector<MtlMaterial> library_;
+  std::set<std::string> libraries_;
+  std::unordered_map<std::string, std::optional<std::uint32_t>> textureOf_;
+
+  std::vector<Corner> corners_;
+  std::vector<Vec3d> points_;
+  std::vector<std::array<std::uint32_t, 3>> pieces_;
+};
+
+/// `wanted` made fit to stand alone on a line, and unlike all names in `taken`.
+std::string uniqueName(const std::string& wanted, const std::string& fallback,
+                       std::set<std::string>& taken) {
+  std::string name;
+  for (const char c : wanted) {
+    name += static_cast<unsigned char>(c) < ' ' || c == '\\' || c == 0x7f ? '_' : c;
+  }
+  while (name.ends_with(' ')) name.pop_back();
+  name.erase(0, name.find_first_not_of(' '));
+  if (name.empty()) name = fallback;
+  const std::string base = name;
+  for (int n = 2; !taken.insert(name).second; ++n) name = base + "_" + std::to_string(n);
+  return name;
+}
+
+/// A file name for a texture: its own, with anything but letters, digits, '-', '_' and '.' made
+/// '_', and the ending that its kind has.
+std::string textureFile(const std::string& stem, const Texture& texture, std::size_t index,
+                        std::set<std::string>& taken) {
+  std::string base = texture.name;
+  for (const char* ending : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"}) {
+    if (base.ends_with(ending)) base.resize(base.size() - std::string_view(ending).size());
+  }
+  for (char& c : base) {
+    const bool kept = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                      c == '-' || c == '.' || static_cast<unsigned char>(c) >= 0x80;
+    if (!kept) c = '_';
+  }
+  if (base.empty()) base = "texture" + std::to_string(index);
+  const std::string ending = texture.mimeType == "image/jpeg" ? ".jpg" : ".png";
+  std::string file = stem + "_" + base + ending;
+  for (int n = 2; !taken.insert(file).second; ++n) {
+    file = stem + "_" + base + "_" + std::to_string(n) + ending;
+  }
+  return file;
+}
+
+/// `mesh`'s materials under names fit for a file, with the files of their textures.
+std::vector<MtlMaterial> namedMaterials(const TriangleMesh& mesh, const std::string& stem,
+                                        std::vector<NamedBytes>& files) {
+  std::vector<std::string> textureFiles;
+  std::set<std::string> takenFiles, takenNames;
+  textureFiles.resize(mesh.textures.size());
+  std::vector<MtlMaterial> materials;
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    MtlMaterial& m = materials.emplace_back(MtlMaterial{mesh.materials[i], ""});
+    m.material.name = uniqueName(m.material.name, "material_" + std::to_string(i), takenNames);
+    if (!m.material.baseColorTexture) continue;
+    const std::uint32_t t = *m.material.baseColorTexture;
+    if (textureFiles[t].empty()) {
+      textureFiles[t] = textureFile(stem, mesh.textures[t], t, takenFiles);
+      files.push_back({textureFiles[t], mesh.textures[t].bytes});
+    }
+    m.baseColorFile = textureFiles[t];
+  }
+  return materials;
+}
+
+void appendColors(std::string& out, const std::array<float, 4>& color, bool withAlpha) {
+  char text[32];
+  for (int c = 0; c < 3; ++c) {
+    // Ten digits: more than a float has, so that the linear float comes back exactly.
+    const double srgb = linearToSrgb(color[c]);
+    const auto [end, error] =
+        std::to_chars(text, text + sizeof text, srgb, std::chars_format::general, 10);
+    out += ' ';
+    out.append(text, end);
+  }
+  if (!withAlpha) return;
+  out += ' ';
+  appendNumber(out, color[3]);
+}
+
+void appendVertices(std::string& out, const TriangleMesh& mesh, bool yUp) {
+  const bool withAlpha =
+      std::any_of(mesh.colors.begin(), mesh.colors.end(), [](const auto& c) { return c[3] != 1; });
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3d p = toFileAxes(mesh.positions[v], yUp);
+    out += 'v';
+    for (const double c : {p.x, p.y, p.z}) {
+      out += ' ';
+      appendNumber(out, c);
+    }
+    if (mesh.hasColors()) appendColors(out, mesh.colors[v], withAlpha);
+    out += '\n';
+  }
+}
+
+/// Writes each different texture coordinate once; returns the index from 0 for each corner.
+std::vector<std::array<std::uint32_t, 3>> appendUvs(std::string& out, const TriangleMesh& mesh) {
+  std::unordered_map<std::uint64_t, std::uint32_t> indexOf;
+  std::vector<std::array<std::uint32_t, 3>> indices;
+  indices.reserve(mesh.uvs.size());
+  for (const auto& corners : mesh.uvs) {
+    auto& triangle = indices.emplace_back();
+    for (int c = 0; c < 3; ++c) {
+      const Vec2f uv = corners[c];
+      const std::uint64_t key = (std::uint64_t{std::bit_cast<std::uint32_t>(uv.x)} << 32) |
+                                std::bit_cast<std::uint32_t>(uv.y);
+      const auto [found, added] =
+          indexOf.try_emplace(key, static_cast<std::uint32_t>(indexOf.size()));
+      triangle[c] = found->second;
+      if (!added) continue;
+      out += "vt ";
+      appendNumber(out, uv.x);
+      out += ' ';
+      appendNumber(out, uv.y);
+      out += '\n';
+    }
+  }
+  return indices;
+}
+
+}  // namespace
+
+TriangleMesh parseObj(std::string_view bytes, const std::string& name, const SiblingFile& sibling) {
+  return ObjReader(bytes, name, sibling).read();
+}
+
+ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool yUp) {
+  // What is named in a line must not break it, and what starts with '-' would be an option.
+  std::string stem = fileStem;
+  for (char& c : stem) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\\') c = '_';
+  }
+  if (stem.starts_with('-') || stem.starts_with(' ')) stem[0] = '_';
+  ObjFiles files;
+  std::string& out = files.obj;
+  std::vector<MtlMaterial> materials;
+  out.reserve(mesh.positions.size() * (mesh.hasColors() ? 100 : 60) +
+              mesh.triangles.size() * (mesh.hasUvs() ? 60 : 24));
+  if (mesh.hasMaterials()) {
+    materials = namedMaterials(mesh, stem, files.siblings);
+    files.siblings.push_back({stem + ".mtl", formatMtl(materials)});
+    out += "mtllib " + stem + ".mtl\n";
+  }
+  appendVertices(out, mesh, yUp);
+  const auto uvIndices = appendUvs(out, mesh);
+  std::uint32_t material = kNone;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.hasMaterials() && mesh.triangleMaterials[t] != material) {
+      material = mesh.triangleMaterials[t];
+      out += "usemtl " + materials[material].material.name + "\n";
+    }
+    out += 'f';
+    for (int c = 0; c < 3; ++c) {
+      out += ' ';
+      appendNumber(out, mesh.triangles[t][c] + 1);
+      if (mesh.hasUvs()) {
+        out += '/';
+        appendNumber(out, uvIndices[t][c] + 1);
+      }
+    }
+    out += '\n';
+  }
+  return files;
+}
+
+}  // namespace exemplar

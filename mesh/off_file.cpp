@@ -1,0 +1,239 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "mesh/mesh_formats.h"
+#include "mesh/polygon.h"
+#include "mesh/text_scanner.h"
+
+namespace exemplar {
+namespace {
+
+/// Reads Geomview's OFF: `[ST][C][N]OFF`, the counts, a line for each vertex and face.
+class OffReader {
+ public:
+  OffReader(std::string_view bytes, const std::string& name) : in_(bytes, name) {}
+
+  TriangleMesh read() {
+    readKind();
+    const std::uint64_t vertices = readCount("the number of vertices");
+    const std::uint64_t faces = readCount("the number of faces");
+    if (!in_.atLineEnd()) in_.integer("the number of edges");
+    // "0 0 0" and a line's end are the least that a vertex takes; "1 0" that a face takes.
+    if (vertices > in_.bytesLeft() / 6 + 1 || faces > in_.bytesLeft() / 4 + 1) {
+      in_.fail("the file is truncated: it promises " + std::to_string(vertices) + " vertices and " +
+               std::to_string(faces) + " faces, and " + std::to_string(in_.bytesLeft()) +
+               " bytes are left");
+    }
+    mesh_.positions.reserve(vertices);
+    for (std::uint64_t i = 0; i < vertices; ++i) readVertex();
+    for (std::uint64_t i = 0; i < faces; ++i) readFace();
+    finish();
+    return std::move(mesh_);
+  }
+
+ private:
+  void readKind() {
+    if (!in_.nextFilledLine()) in_.fail("not an OFF file: it should begin with 'OFF'");
+    // Some writers leave no blank between "OFF" and the first count.
+    std::string_view kind = in_.letters();
+    const std::string whole(kind);
+    const auto drop = [&](std::string_view prefix) {
+      const bool found = kind.starts_with(prefix) && kind != "OFF";
+      if (found) kind.remove_prefix(prefix.size());
+      return found;
+    };
+    hasUvs_ = drop("ST");
+    hasColors_ = drop("C");
+    hasNormals_ = drop("N");
+    if (kind != "OFF") {
+      in_.fail(
+          "not an OFF file that can be read: it should begin with OFF, COFF, NOFF, CNOFF or ST and "
+          "one of "
+          "these, not '" +
+          TextScanner::shown(whole) + "'");
+    }
+    if (in_.peek() == 'B') in_.fail("a binary OFF file; save it as text, or as .ply");
+    if (in_.atLineEnd() || in_.peek() == '#') {
+      if (!in_.nextFilledLine()) in_.fail("the file is truncated: it ends before the counts");
+    }
+  }
+
+  std::uint64_t readCount(const char* what) {
+    const std::int64_t count = in_.integer(what);
+    if (count < 0) in_.fail(std::string(what) + " should not be negative");
+    return static_cast<std::uint64_t>(count);
+  }
+
+  void nextRow(const char* what) {
+    if (!in_.nextFilledLine())
+      in_.fail(std::string("the file is truncated: a ") + what + " is missing");
+  }
+
+  /// The numbers up to the line's end or a comment.
+  void readNumbers() {
+    numbers_.clear();
+    while (!in_.atLineEnd() && in_.peek() != '#') numbers_.push_back(in_.number("a number"));
+  }
+
+  void readVertex() {
+    nextRow("vertex");
+    Vec3d p;
+    p.x = in_.number("x");
+    p.y = in_.number("y");
+    p.z = in_.number("z");
+    if (const char* problem = coordinateProblem(p)) in_.fail(std::string("the vertex ") + problem);
+    mesh_.positions.push_back(p);
+    if (!hasUvs_ && !hasColors_) return;  // and whatever follows has no meaning here
+    readNumbers();
+    // Normal, colour, texture coordinates: in this order.
+    std::size_t begin = hasNormals_ ? 3 : 0, end = numbers_.size();
+    if (hasUvs_) {
+      if (end < begin + 2) in_.fail("a vertex's texture coordinates are missing");
+      end -= 2;
+      if (!(std::abs(numbers_[end]) < 1e15 && std::abs(numbers_[end + 1]) < 1e15)) {
+        in_.fail("a texture coordinate is NaN or too large");
+      }
+      vertexUvs_.push_back(
+          {static_cast<float>(numbers_[end]), static_cast<float>(numbers_[end + 1])});
+    }
+    if (hasColors_) {
+      if (end != begin + 3 && end != begin + 4)
+        in_.fail("a vertex's colour should have three or four numbers");
+      colors_.push_back({numbers_[begin], numbers_[begin + 1], numbers_[begin + 2],
+                         end == begin + 4 ? numbers_[begin + 3] : -1});
+      checkColor(colors_.back());
+    }
+  }
+
+  void checkColor(const std::array<double, 4>& color) {
+    for (const double c : color) {
+      if (!(c >= -1 && c <= 255)) in_.fail("a colour should be in 0..1 or 0..255");
+    }
+  }
+
+  void readFace() {
+    nextRow("face");
+    const std::int64_t count = in_.integer("a face's number of corners");
+    if (count < 0) in_.fail("a face's number of corners should not be negative");
+    corners_.clear();
+    points_.clear();
+    pieces_.clear();
+    for (std::int64_t i = 0; i < count; ++i) {
+      const std::int64_t v = in_.integer("a face's vertex");
+      if (v < 0 || v >= static_cast<std::int64_t>(mesh_.positions.size())) {
+        in_.fail("a face names vertex " + std::to_string(v) + " of " +
+                 std::to_string(mesh_.positions.size()));
+      }
+      corners_.push_back(static_cast<std::uint32_t>(v));
+      points_.push_back(mesh_.positions[corners_.back()]);
+    }
+    readNumbers();
+    if (count < 3) return;  // a point or an edge
+    if (!triangulate(points_, pieces_)) {
+      in_.fail("a concave face has " + std::to_string(count) + " corners; at most " +
+               std::to_string(kMostCorners) + " can be cut into triangles");
+    }
+    std::array<double, 4> color{-1, -1, -1, -1};
+    if (numbers_.size() == 3 || numbers_.size() == 4) {
+      std::copy(numbers_.begin(), numbers_.end(), color.begin());
+      checkColor(color);
+    }
+    for (const auto& [a, b, c] : pieces_) {
+      mesh_.triangles.push_back({corners_[a], corners_[b], corners_[c]});
+      faceColors_.push_back(color);
+    }
+  }
+
+  /// Whether colours are in 0..255: whole files use one or the other, and only a component above 1
+  /// tells which. A missing component is -1.
+  static double scaleOf(const std::vector<std::array<double, 4>>& colors) {
+    for (const auto& color : colors) {
+      for (const double c : color) {
+        if (c > 1) return 1;
+      }
+    }
+    return 255;
+  }
+
+  static std::array<std::uint8_t, 4> toBytes(const std::array<double, 4>& color, double scale) {
+    std::array<std::uint8_t, 4> bytes{};
+    for (int c = 0; c < 4; ++c) {
+      const double missing = c == 3 ? 255 : 204;  // opaque, light grey
+      bytes[c] = static_cast<std::uint8_t>(
+          std::lround(color[c] < 0 ? missing : std::min(color[c] * scale, 255.0)));
+    }
+    return bytes;
+  }
+
+  void finish() {
+    const double vertexScale = scaleOf(colors_);
+    for (const auto& color : colors_)
+      mesh_.colors.push_back(fromRgba8(toBytes(color, vertexScale)));
+    if (hasUvs_) {
+      for (const auto& [a, b, c] : mesh_.triangles) {
+        mesh_.uvs.push_back({vertexUvs_[a], vertexUvs_[b], vertexUvs_[c]});
+      }
+    }
+    const auto isColored = [](const std::array<double, 4>& color) { return color[0] >= 0; };
+    if (std::none_of(faceColors_.begin(), faceColors_.end(), isColored)) return;
+    const double faceScale = scaleOf(faceColors_);
+    std::vector<std::array<std::uint8_t, 4>> bytes;
+    for (const auto& color : faceColors_) bytes.push_back(toBytes(color, faceScale));
+    setFaceColors(mesh_, bytes);
+  }
+
+  TextScanner in_;
+  TriangleMesh mesh_;
+  bool hasUvs_ = false, hasColors_ = false, hasNormals_ = false;
+  std::vector<std::array<double, 4>> colors_, faceColors_;
+  std::vector<Vec2f> vertexUvs_;
+  std::vector<double> numbers_;
+  std::vector<std::uint32_t> corners_;
+  std::vector<Vec3d> points_;
+  std::vector<std::array<std::uint32_t, 3>> pieces_;
+};
+
+void appendColor(std::string& out, const std::array<float, 4>& color) {
+  for (const std::uint8_t sample : toRgba8(color)) {
+    out += ' ';
+    appendNumber(out, std::uint32_t{sample});
+  }
+}
+
+}  // namespace
+
+TriangleMesh parseOff(std::string_view bytes, const std::string& name) {
+  return OffReader(bytes, name).read();
+}
+
+std::string formatOff(const TriangleMesh& mesh, bool yUp) {
+  std::string out = mesh.hasColors() ? "COFF\n" : "OFF\n";
+  out.reserve(out.size() + mesh.positions.size() * 70 + mesh.triangles.size() * 26);
+  appendNumber(out, static_cast<std::uint32_t>(mesh.positions.size()));
+  out += ' ' + std::to_string(mesh.triangles.size()) + " 0\n";
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3d p = toFileAxes(mesh.positions[v], yUp);
+    appendNumber(out, p.x);
+    for (const double c : {p.y, p.z}) {
+      out += ' ';
+      appendNumber(out, c);
+    }
+    if (mesh.hasColors()) appendColor(out, mesh.colors[v]);
+    out += '\n';
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    out += '3';
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      out += ' ';
+      appendNumber(out, v);
+    }
+    if (mesh.hasMaterials()) appendColor(out, mesh.materials[mesh.triangleMaterials[t]].baseColor);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,554 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <map>
+
+#include "core/error.h"
+#include "mesh/mesh_formats.h"
+#include "mesh/polygon.h"
+#include "mesh/text_scanner.h"
+
+namespace exemplar {
+namespace {
+
+enum class Type { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float, Double };
+
+constexpr int kBytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+
+struct Property {
+  std::string name;
+  Type type = Type::Float;
+  bool isList = false;
+  Type countType = Type::Uint8;
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+
+  /// The property with one of these names, or -1.
+  int find(std::initializer_list<std::string_view> names, bool list = false) const {
+    for (const std::string_view wanted : names) {
+      for (std::size_t i = 0; i < properties.size(); ++i) {
+        if (properties[i].name == wanted && properties[i].isList == list) return static_cast<int>(i);
+      }
+    }
+    return -1;
+  }
+};
+
+enum class Encoding { Ascii, Little, Big };
+
+struct Header {
+  Encoding encoding = Encoding::Ascii;
+  std::vector<Element> elements;
+  std::map<std::size_t, std::string> materialNames;
+};
+
+Type typeOf(std::string_view word, TextScanner& in) {
+  constexpr std::string_view kNames[] = {"char", "uchar", "short", "ushort",
+                                         "int",  "uint",  "float", "double"};
+  constexpr std::string_view kSizedNames[] = {"int8",  "uint8",  "int16",   "uint16",
+                                              "int32", "uint32", "float32", "float64"};
+  for (int i = 0; i < 8; ++i) {
+    if (word == kNames[i] || word == kSizedNames[i]) return static_cast<Type>(i);
+  }
+  in.fail("'" + TextScanner::shown(word) + "' is not a PLY type");
+}
+
+Header readHeader(TextScanner& in) {
+  Header header;
+  if (!in.nextLine() || in.rest() != "ply") in.fail("not a PLY file: it should begin with 'ply'");
+  bool hasFormat = false;
+  while (in.nextLine()) {
+    const std::string_view key = in.word();
+    if (key == "end_header") {
+      if (!hasFormat) in.fail("the header has no 'format' line");
+      return header;
+    }
+    if (key == "format") {
+      const std::string_view encoding = in.word();
+      if (encoding == "ascii") {
+        header.encoding = Encoding::Ascii;
+      } else if (encoding == "binary_little_endian") {
+        header.encoding = Encoding::Little;
+      } else if (encoding == "binary_big_endian") {
+        header.encoding = Encoding::Big;
+      } else {
+        in.fail(
+            "'" + TextScanner::shown(encoding) +
+            "' is not a PLY format; it should be ascii, binary_little_endian or binary_big_endian");
+      }
+      hasFormat = true;
+    } else if (key == "element") {
+      Element& element = header.elements.emplace_back();
+      element.name = in.word();
+      const std::int64_t count = in.integer("an element's count");
+      if (count < 0) in.fail("an element's count should not be negative");
+      element.count = static_cast<std::uint64_t>(count);
+    } else if (key == "property") {
+      if (header.elements.empty()) in.fail("a property stands before the first element");
+      Property property;
+      std::string_view type = in.word();
+      if (type == "list") {
+        property.isList = true;
+        property.countType = typeOf(in.word(), in);
+        if (property.countType >= Type::Float) in.fail("a list's count should be a whole number");
+        type = in.word();
+      }
+      property.type = typeOf(type, in);
+      property.name = in.word();
+      if (property.name.empty()) in.fail("a property has no name");
+      header.elements.back().properties.push_back(std::move(property));
+    } else if (key == "comment") {
+      // "comment material 3 NAME": how `formatPly` keeps the names of materials.
+      if (in.word() == "material" && in.peek() >= '0' && in.peek() <= '9') {
+        const std::int64_t index = in.integerPrefix("a material's index");
+        if (index >= 0) header.materialNames[static_cast<std::size_t>(index)] = in.rest();
+      }
+    }
+  }
+  in.fail("the header has no 'end_header' line");
+}
+
+/// Reads the body's elements one after another; each element as one number for each property, and
+/// lists on the side.
+class Body {
+ public:
+  Body(TextScanner& in, Encoding encoding) : in_(in), encoding_(encoding), bytes_(in.afterLine()) {
+    const bool nativeIsBig = std::endian::native == std::endian::big;
+    swap_ = (encoding == Encoding::Big) != nativeIsBig;
+  }
+
+  /// Prepares for an element's rows; refuses a count that the rest of the file cannot hold.
+  void begin(const Element& element) {
+    element_ = &element;
+    scalars_.assign(element.properties.size(), 0);
+    lists_.resize(element.properties.size());
+    std::uint64_t least = 0;
+    for (const Property& p : element.properties) {
+      least += encoding_ == Encoding::Ascii
+                   ? 2
+                   : kBytes[static_cast<int>(p.isList ? p.countType : p.type)];
+    }
+    const std::uint64_t left =
+        encoding_ == Encoding::Ascii ? in_.bytesLeft() + 1 : bytes_.size() - position_;
+    if (element.count > 0 && least > 0 && element.count > left / least) {
+      fail("the file is truncated: its header promises " + std::to_string(element.count) + " of '" +
+           TextScanner::shown(element.name) + "' and " + std::to_string(left) + " bytes are left");
+    }
+  }
+
+  void readRow() {
+    if (encoding_ == Encoding::Ascii) {
+      readTextRow();
+    } else {
+      readBinaryRow();
+    }
+  }
+
+  double scalar(int property) const { return scalars_[property]; }
+  const std::vector<double>& list(int property) const { return lists_[property]; }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    if (encoding_ == Encoding::Ascii) in_.fail(message);
+    throw InputError(in_.name() + ": " + message);
+  }
+
+ private:
+  void readTextRow() {
+    do {
+      if (!in_.nextLine())
+        fail("the file is truncated: a '" + TextScanner::shown(element_->name) + "' is missing");
+    } while (in_.atLineEnd());
+    for (std::size_t i = 0; i < element_->properties.size(); ++i) {
+      const Property& p = element_->properties[i];
+      if (!p.isList) {
+        scalars_[i] = in_.number(p.name.c_str());
+        continue;
+      }
+      const std::int64_t count = in_.integer("a list's count");
+      if (count < 0 || static_cast<std::uint64_t>(count) > in_.bytesLeft())
+        fail("a list's count is wrong");
+      lists_[i].clear();
+      for (std::int64_t k = 0; k < count; ++k) lists_[i].push_back(in_.number(p.name.c_str()));
+    }
+  }
+
+  void readBinaryRow() {
+    for (std::size_t i = 0; i < element_->properties.size(); ++i) {
+      const Property& p = element_->properties[i];
+      if (!p.isList) {
+        require(kBytes[static_cast<int>(p.type)]);
+        scalars_[i] = take(p.type);
+        continue;
+      }
+      require(kBytes[static_cast<int>(p.countType)]);
+      const double count = take(p.countType);
+      if (count < 0) fail("a list's count is negative");
+      require(count * kBytes[static_cast<int>(p.type)]);
+      lists_[i].resize(static_cast<std::size_t>(count));
+      for (double& value : lists_[i]) value = take(p.type);
+    }
+  }
+
+  void require(double bytes) const {
+    if (bytes > static_cast<double>(bytes_.size() - position_)) {
+      fail("the file is truncated: it ends in the middle of a '" +
+           TextScanner::shown(element_->name) + "'");
+    }
+  }
+
+  template <class T>
+  double takeAs() {
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), bytes_.data() + position_, sizeof(T));
+    position_ += sizeof(T);
+    if (swap_) std::reverse(raw.begin(), raw.end());
+    return static_cast<double>(std::bit_cast<T>(raw));
+  }
+
+  double take(Type type) {
+    switch (type) {
+      case Type::Int8:
+        return takeAs<std::int8_t>();
+      case Type::Uint8:
+        return takeAs<std::uint8_t>();
+      case Type::Int16:
+        return takeAs<std::int16_t>();
+      case Type::Uint16:
+        return takeAs<std::uint16_t>();
+      case Type::Int32:
+        return takeAs<std::int32_t>();
+      case Type::Uint32:
+        return takeAs<std::uint32_t>();
+      case Type::Float:
+        return takeAs<float>();
+      case Type::Double:
+        return takeAs<double>();
+    }
+    return 0;
+  }
+
+  TextScanner& in_;
+  Encoding encoding_;
+  std::string_view bytes_;
+  std::size_t position_ = 0;
+  bool swap_ = false;
+  const Element* element_ = nullptr;
+  std::vector<double> scalars_;
+  std::vector<std::vector<double>> lists_;
+};
+
+/// The properties that hold a colour, each -1 where it is missing.
+struct ColorProperties {
+  std::array<int, 4> index{-1, -1, -1, -1};
+  std::array<double, 4> toByte{};
+
+  explicit ColorProperties(const Element& e)
+      : index{e.find({"red", "r", "diffuse_red"}), e.find({"green", "g", "diffuse_green"}),
+              e.find({"blue", "b", "diffuse_blue"}), e.find({"alpha", "a"})} {
+    for (int c = 0; c < 4; ++c) {
+      if (index[c] < 0) continue;
+      const Type type = e.properties[index[c]].type;
+      toByte[c] = type >= Type::Float                           ? 255.0
+                  : type == Type::Uint16 || type == Type::Int16 ? 1 / 257.0
+                                                                : 1.0;
+    }
+  }
+  bool present() const { return index[0] >= 0 && index[1] >= 0 && index[2] >= 0; }
+  std::array<std::uint8_t, 4> read(const Body& body) const {
+    std::array<std::uint8_t, 4> color{255, 255, 255, 255};
+    for (int c = 0; c < 4; ++c) {
+      if (index[c] < 0) continue;
+      const double value = body.scalar(index[c]) * toByte[c];
+      if (!(value >= -0.5 && value < 255.5)) body.fail("a colour is out of range");
+      color[c] = static_cast<std::uint8_t>(std::lround(value));
+    }
+    return color;
+  }
+};
+
+class PlyReader {
+ public:
+  PlyReader(std::string_view bytes, const std::string& name) : in_(bytes, name) {}
+
+  TriangleMesh read() {
+    const Header header = readHeader(in_);
+    Body body(in_, header.encoding);
+    bool hasVertices = false;
+    for (const Element& element : header.elements) {
+      if (element.properties.empty()) continue;
+      body.begin(element);
+      if (element.name == "vertex") {
+        if (hasVertices) body.fail("the file has two 'vertex' elements");
+        hasVertices = true;
+        readVertices(element, body);
+      } else if (element.name == "face") {
+        readFaces(element, body);
+      } else if (element.name == "tristrips") {
+        readStrips(element, body);
+      } else if (element.name == "material" && element.find({"linear_red"}) >= 0) {
+        readMaterials(element, header, body);
+      } else {
+        for (std::uint64_t i = 0; i < element.count; ++i) body.readRow();
+      }
+    }
+    finish(body);
+    return std::move(mesh_);
+  }
+
+ private:
+  void readVertices(const Element& element, Body& body) {
+    const int x = element.find({"x"}), y = element.find({"y"}), z = element.find({"z"});
+    const int u = element.find({"s", "u", "texture_u", "texture_s"});
+    const int v = element.find({"t", "v", "texture_v", "texture_t"});
+    const ColorProperties color(element);
+    if (x < 0 || y < 0 || z < 0) body.fail("the 'vertex' element has no x, y and z");
+    mesh_.positions.reserve(element.count);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      body.readRow();
+      const Vec3d p{body.scalar(x), body.scalar(y), body.scalar(z)};
+      if (const char* problem = coordinateProblem(p)) {
+        body.fail("vertex " + std::to_string(i) + " " + problem);
+      }
+      mesh_.positions.push_back(p);
+      if (color.present()) mesh_.colors.push_back(fromRgba8(color.read(body)));
+      if (u >= 0 && v >= 0) vertexUvs_.push_back(uv(body.scalar(u), body.scalar(v), body));
+    }
+  }
+
+  static Vec2f uv(double u, double v, const Body& body) {
+    if (!(std::abs(u) < 1e15 && std::abs(v) < 1e15))
+      body.fail("a texture coordinate is NaN or too large");
+    return {static_cast<float>(u), static_cast<float>(v)};
+  }
+
+  std::uint32_t vertexIndex(double value, const Body& body) const {
+    if (!(value >= 0 && value < static_cast<double>(mesh_.positions.size())) ||
+        value != std::floor(value)) {
+      body.fail("a face names vertex " +
+                (std::abs(value) < 1e15 ? std::to_string(static_cast<std::int64_t>(value)) : "?") +
+                " of " + std::to_string(mesh_.positions.size()));
+    }
+    return static_cast<std::uint32_t>(value);
+  }
+
+  void readFaces(const Element& element, Body& body) {
+    const int indices = element.find({"vertex_indices", "vertex_index"}, true);
+    const int texcoord = element.find({"texcoord"}, true);
+    const int material = element.find({"material_index"});
+    const ColorProperties color(element);
+    if (indices < 0) body.fail("the 'face' element has no vertex_indices");
+    std::vector<Vec3d> points;
+    std::vector<std::array<std::uint32_t, 3>> pieces;
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      body.readRow();
+      const std::vector<double>& corners = body.list(indices);
+      if (corners.size() < 3)
+        body.fail("face " + std::to_string(i) + " has fewer than three corners");
+      points.clear();
+      pieces.clear();
+      for (const double c : corners) points.push_back(mesh_.positions[vertexIndex(c, body)]);
+      if (!triangulate(points, pieces)) {
+        body.fail("face " + std::to_string(i) + " is concave and has " +
+                  std::to_string(corners.size()) + " corners; at most " +
+                  std::to_string(kMostCorners) + " can be cut into triangles");
+      }
+      const bool hasUvs = texcoord >= 0 && body.list(texcoord).size() == 2 * corners.size();
+      const auto cornerUv = [&](std::uint32_t c) {
+        if (!hasUvs) return Vec2f{};
+        return uv(body.list(texcoord)[2 * c], body.list(texcoord)[2 * c + 1], body);
+      };
+      for (const auto& [a, b, c] : pieces) {
+        mesh_.triangles.push_back({static_cast<std::uint32_t>(corners[a]),
+                                   static_cast<std::uint32_t>(corners[b]),
+                                   static_cast<std::uint32_t>(corners[c])});
+        if (texcoord >= 0) mesh_.uvs.push_back({cornerUv(a), cornerUv(b), cornerUv(c)});
+        if (color.present()) faceColors_.push_back(color.read(body));
+        if (material >= 0) materialIndices_.push_back(body.scalar(material));
+      }
+    }
+  }
+
+  /// Triangle strips, as the Stanford scans have them: -1 ends a strip.
+  void readStrips(const Element& element, Body& body) {
+    const int indices = element.find({"vertex_indices", "vertex_index"}, true);
+    if (indices < 0) body.fail("the 'tristrips' element has no vertex_indices");
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      body.readRow();
+      const std::vector<double>& strip = body.list(indices);
+      std::size_t begin = 0;
+      for (std::size_t k = 0; k < strip.size(); ++k) {
+        if (strip[k] == -1) {
+          begin = k + 1;
+          continue;
+        }
+        const std::uint32_t c = vertexIndex(strip[k], body);
+        if (k < begin + 2) continue;
+        const std::uint32_t a = static_cast<std::uint32_t>(strip[k - 2]);
+        const std::uint32_t b = static_cast<std::uint32_t>(strip[k - 1]);
+        if (a == b || b == c || c == a) continue;  // how strips are joined
+        if ((k - begin) % 2 == 0) {
+          mesh_.triangles.push_back({a, b, c});
+        } else {
+          mesh_.triangles.push_back({b, a, c});
+        }
+      }
+    }
+  }
+
+  void readMaterials(const Element& element, const Header& header, Body& body) {
+    const char* names[] = {"linear_red",   "linear_green",   "linear_blue",
+                           "opacity",      "metallic",       "roughness",
+                           "emission_red", "emission_green", "emission_blue"};
+    std::array<int, 9> at{};
+    for (int i = 0; i < 9; ++i) at[i] = element.find({names[i]});
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      body.readRow();
+      Material m;
+      float* numbers[] = {&m.baseColor[0], &m.baseColor[1], &m.baseColor[2],
+                          &m.baseColor[3], &m.metallic,     &m.roughness,
+                          &m.emission.x,   &m.emission.y,   &m.emission.z};
+      for (int k = 0; k < 9; ++k) {
+        if (at[k] < 0) continue;
+        const double value = body.scalar(at[k]);
+        if (!(std::abs(value) < 1e15)) body.fail("a material's number is NaN or too large");
+        *numbers[k] = static_cast<float>(value);
+      }
+      const auto name = header.materialNames.find(i);
+      if (name != header.materialNames.end()) m.name = name->second;
+      fileMaterials_.push_back(std::move(m));
+    }
+  }
+
+  void finish(const Body& body) {
+    const std::size_t triangles = mesh_.triangles.size();
+    if (mesh_.uvs.size() != triangles) mesh_.uvs.clear();
+    if (mesh_.uvs.empty() && !vertexUvs_.empty()) {
+      for (const auto& [a, b, c] : mesh_.triangles) {
+        mesh_.uvs.push_back({vertexUvs_[a], vertexUvs_[b], vertexUvs_[c]});
+      }
+    }
+    if (!fileMaterials_.empty() && materialIndices_.size() == triangles) {
+      mesh_.materials = std::move(fileMaterials_);
+      for (const double m : materialIndices_) {
+        if (!(m >= 0 && m < static_cast<double>(mesh_.materials.size())) || m != std::floor(m)) {
+          body.fail("a face names a material that does not exist: there are " +
+                    std::to_string(mesh_.materials.size()));
+        }
+        mesh_.triangleMaterials.push_back(static_cast<std::uint32_t>(m));
+      }
+    } else if (!faceColors_.empty() && faceColors_.size() == triangles) {
+      setFaceColors(mesh_, faceColors_);
+    }
+  }
+
+  TextScanner in_;
+  TriangleMesh mesh_;
+  std::vector<Vec2f> vertexUvs_;
+  std::vector<std::array<std::uint8_t, 4>> faceColors_;
+  std::vector<double> materialIndices_;
+  std::vector<Material> fileMaterials_;
+};
+
+template <class T>
+void appendLittle(std::string& out, T value) {
+  auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
+  out.append(raw.data(), raw.size());
+}
+
+std::string headerOf(const TriangleMesh& mesh, bool asDouble) {
+  const std::string vertices = std::to_string(mesh.positions.size());
+  std::string out = "ply\nformat binary_little_endian 1.0\ncomment written by exemplar\n";
+  if (mesh.hasMaterials()) {
+    for (std::size_t m = 0; m < mesh.materials.size(); ++m) {
+      std::string name = mesh.materials[m].name;
+      for (char& c : name) c = static_cast<unsigned char>(c) < ' ' ? '_' : c;
+      out += "comment material " + std::to_string(m) + " " + name + "\n";
+    }
+  }
+  out += "element vertex " + vertices + "\n";
+  for (const char* axis : {"x", "y", "z"}) {
+    out += std::string("property ") + (asDouble ? "double " : "float ") + axis + "\n";
+  }
+  const char* colors =
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
+  if (mesh.hasColors()) out += colors;
+  out += "element face " + std::to_string(mesh.triangles.size()) + "\n";
+  // Signed indices are what more readers know.
+  out += mesh.positions.size() <= 0x7fffffff ? "property list uchar int vertex_indices\n"
+                                             : "property list uchar uint vertex_indices\n";
+  if (mesh.hasUvs()) out += "property list uchar float texcoord\n";
+  if (mesh.hasMaterials()) {
+    out += colors;
+    out += "property int material_index\nelement material " +
+           std::to_string(mesh.materials.size()) + "\n";
+    for (const char* name : {"linear_red", "linear_green", "linear_blue", "opacity", "metallic",
+                             "roughness", "emission_red", "emission_green", "emission_blue"}) {
+      out += std::string("property float ") + name + "\n";
+    }
+  }
+  return out + "end_header\n";
+}
+
+}  // namespace
+
+TriangleMesh parsePly(std::string_view bytes, const std::string& name) {
+  return PlyReader(bytes, name).read();
+}
+
+std::string formatPly(const TriangleMesh& mesh, bool yUp) {
+  const auto isFloat = [](double c) { return static_cast<double>(static_cast<float>(c)) == c; };
+  const bool asDouble =
+      !std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                   [&](const Vec3d& p) { return isFloat(p.x) && isFloat(p.y) && isFloat(p.z); });
+  std::string out = headerOf(mesh, asDouble);
+  out.reserve(out.size() + mesh.positions.size() * 28 +
+              mesh.triangles.size() * (mesh.hasUvs() ? 46 : 21));
+  const auto appendColor = [&](const std::array<float, 4>& color) {
+    for (const std::uint8_t sample : toRgba8(color)) out += static_cast<char>(sample);
+  };
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3d p = toFileAxes(mesh.positions[v], yUp);
+    for (const double c : {p.x, p.y, p.z}) {
+      if (asDouble) {
+        appendLittle(out, c);
+      } else {
+        appendLittle(out, static_cast<float>(c));
+      }
+    }
+    if (mesh.hasColors()) appendColor(mesh.colors[v]);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    out += '\3';
+    for (const std::uint32_t v : mesh.triangles[t]) appendLittle(out, v);
+    if (mesh.hasUvs()) {
+      out += '\6';
+      for (const Vec2f& uv : mesh.uvs[t]) {
+        appendLittle(out, uv.x);
+        appendLittle(out, uv.y);
+      }
+    }
+    if (mesh.hasMaterials()) {
+      appendColor(mesh.materials[mesh.triangleMaterials[t]].baseColor);
+      appendLittle(out, mesh.triangleMaterials[t]);
+    }
+  }
+  if (mesh.hasMaterials()) {
+    for (const Material& m : mesh.materials) {
+      for (const float f : {m.baseColor[0], m.baseColor[1], m.baseColor[2], m.baseColor[3],
+                            m.metallic, m.roughness, m.emission.x, m.emission.y, m.emission.z}) {
+        appendLittle(out, f);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace exemplar
