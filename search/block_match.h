@@ -45,9 +45,9 @@ Vec3i blockPositions(const Vec3i& source, const Vec3i& block);
 template <class Sample>
 std::int64_t knownSamples(const BlockQuery<Sample>& query);
 
-/// Equation 1 for one block of the source: the yardstick. All searches return exactly this number
-/// for the block that they return. Squared differences of floats are summed in double over eight
-/// lanes (samples i, i + 8, ... of each row along x), the lanes then from first to last.
+/// Equation 1 for one block of the source: the yardstick. Every search returns exactly this number
+/// for the block that it returns. Integers are summed exactly; squared differences of floats are
+/// summed in double in an order that depends on the query's size and mask alone.
 template <class Sample>
 double blockDistance(const Array3D<Sample>& source, const Vec3i& position,
                      const BlockQuery<Sample>& query);

@@ -59,22 +59,23 @@ double levelDistance(const Array3D<double>& a, const Array3D<double>& b);
 /// level and *each* position of a cell's first sample, the cell's average, rounded to one of 256
 /// levels (halves up).
 ///
-/// Rounding averages breaks equation 2 by itself: `cellSums` says what a rounded average still
-/// says for certain, and the bounds use that.
+/// Rounding averages breaks equation 2 by itself: `cellSums` says what a rounded average still says
+/// for certain, and the bounds use that.
 class SlidingPyramid {
  public:
-  SlidingPyramid() = default;
-  /// Averages over cells of 2, 4, ..., `blockSize` samples a side. O(samples × levels), parallel.
-  SlidingPyramid(Array3D<std::uint8_t> source, int blockSize);
+  /// Averages over cells of 1, 2, 4, ..., `largestCell` samples a side, a power of two up to 256.
+  /// O(samples x scales), parallel; 1 byte a sample and scale.
+  SlidingPyramid(Array3D<std::uint8_t> source, int largestCell);
 
   /// log2 of the largest cell's side.
-  int levels() const { return static_cast<int>(averages_.size()) - 1; }
-  /// The averages of cells of 2^`scale` samples a side, indexed by the cell's first sample: 0 is
-  /// the source itself. Smaller than the source by the side less one.
+  int scales() const { return static_cast<int>(averages_.size()) - 1; }
+  /// The averages of the cells of 2^`scale` samples a side, at the index of the cell's first
+  /// sample; 0 is the source itself. All of the source's size, so that indices agree; 0 where a
+  /// cell would reach beyond it.
   const Array3D<std::uint8_t>& averages(int scale) const { return averages_[scale]; }
-  /// The largest standard deviation of a cell of 2^`scale` samples a side, anywhere in the source,
-  /// against the averages of `finest` as samples.
-  double cellDeviation(int scale, int finest = 0) const;
+  /// For each scale the largest standard deviation of a cell, anywhere in the source, taking the
+  /// averages of scale `finest` as its samples; 0 for `finest` and below. O(samples x scales).
+  std::vector<double> cellDeviations(int finest = 0) const;
 
  private:
   std::vector<Array3D<std::uint8_t>> averages_;

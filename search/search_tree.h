@@ -72,27 +72,41 @@ class SearchTree {
   BlockMatch findBest(const BlockQuery<std::uint8_t>& query, const TreeSearchOptions& options = {},
                       TreeSearchStatistics* statistics = nullptr) const;
 
+  /// The lower bounds that a search gives to the nodes on the way from the root to the block at
+  /// `position`, in order, in units of `BlockMatch::distance`; the last is that block's distance.
+  /// What the search rests on, open to inspection: they never decrease.
+  std::vector<double> boundsAlongPath(const BlockQuery<std::uint8_t>& query,
+                                      const Vec3i& position) const;
+
   int blockSize() const { return blockSize_; }  ///< in samples of the (subsampled) field
   int droppedLevels() const { return dropped_; }
-  const SlidingPyramid& pyramid() const;
+  const SlidingPyramid& pyramid() const { return *pyramid_; }
 
   std::int64_t nodes() const { return static_cast<std::int64_t>(nodes_.size()); }
   std::int64_t bytes() const;  ///< of nodes and references, without the pyramid
 
  private:
   struct Node {
-    std::uint32_t begin = 0;       ///< first of the node's positions in `order_`
-    std::uint32_t firstChild = 0;  ///< children are consecutive
-    std::uint32_t prefix = 0;      ///< cells, along the path, in which all its blocks agree
-    std::uint16_t children = 0;
+    std::uint32_t begin;  ///< its positions in `order_`: [begin, begin + count)
+    std::uint32_t count;
+    std::uint32_t lowest;      ///< the lowest of them
+    std::uint32_t firstChild;  ///< children are consecutive
+    std::uint32_t prefix;      ///< cells along the path in which all its blocks agree
+    std::uint32_t children;
   };
+  struct Path;        // where each cell of a path lies
+  struct Deviations;  // measured on first use
   friend class TreeBuilder;
   friend class TreeSearch;
+  SearchTree() = default;
 
   int blockSize_ = 0, dropped_ = 0;
+  int low_ = 0, high_ = 255;  ///< of the source's samples
   std::shared_ptr<const SlidingPyramid> pyramid_;
+  std::shared_ptr<const Path> path_;
   std::vector<Node> nodes_;           ///< nodes_[0] is the root
   std::vector<std::uint32_t> order_;  ///< source indices of positions, sorted by path
+  std::shared_ptr<Deviations> deviations_;
 };
 
 }  // namespace exemplar
