@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
@@ -23,8 +24,10 @@ struct HeightMap {
 };
 
 struct HeightMapFileOptions {
-  /// World distance of neighbouring points where the file does not say (.png, .pgm); > 0.
-  double cellSize = 1;
+  /// World distance of neighbouring points where the file does not say (.png, .pgm); > 0. By
+  /// default the relief (highest less lowest point) becomes a fifth of the longer side, as in steep
+  /// mountains; say 30 for a map of 30 m cells whose steps are metres.
+  std::optional<double> cellSize;
   /// World height of one step of the file's integers (.png, .pgm); > 0.
   double heightScale = 1;
 };
@@ -47,8 +50,28 @@ void writeHeightMap(const std::filesystem::path& path, const HeightMap& map,
 /// units below its lowest point (`base` > 0).
 TriangleMesh heightMapToMesh(const HeightMap& map, double base);
 
+struct HeightMapToSdfOptions {
+  double voxelSize = 0;  ///< world units, > 0; 0 means: `resolution` decides
+  int resolution = 64;   ///< samples along the box's longest side where voxelSize is 0; 1..4096
+  int air = 4;           ///< voxels above the highest point, >= 0
+  int ground = 4;        ///< voxels below the lowest point, >= 0
+  double halfWidth = 3;  ///< the distance is exact up to this many voxels, then clamped; > 0;
+                         ///< infinite: exact everywhere
+};
+
+/// The signed distance of the ground under a height map, in world units without exaggeration: x
+/// from 0 to the map's width, y to its depth, z as the heights are. The ground goes on past the
+/// box's sides, mirrored at the map's border, and downwards: the field has no walls and no floor.
+///
+/// The surface is that of `heightMapToMesh`; maps with more than four points a voxel along an axis
+/// are averaged down to two to four first. The same bytes at any number of threads. Throws
+/// `InputError` for options out of range and fields that would not fit in memory.
+DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& options = {});
+
 /// The height, at each column of samples, of the topmost crossing from outside to inside, linearly
-/// between samples; the field's floor where there is none.
+/// between samples. Columns that are outside all the way have the height of the box's floor, those
+/// that are inside at the top the height of its ceiling. Within half a voxel of the height map that
+/// a field was made from where that is no steeper than the grid resolves.
 HeightMap sdfToHeightMap(const DistanceField& field);
 
 }  // namespace exemplar

@@ -82,6 +82,27 @@ double squaredDistance(const Vec3d& p, const Corners& t) {
   return dot(q, q);
 }
 
+// The moments times the derivatives of d / |d|^3, the field of a single area vector: each term is
+// symmetric in its indices.
+double TriangleTree::expansion(const Moments& m, const Vec3d& d, double r2) {
+  const double inverse2 = 1 / r2, inverse3 = inverse2 * std::sqrt(inverse2);
+  const double x = d.x, y = d.y, z = d.z, xx = x * x, yy = y * y, zz = z * z;
+  const auto& f = m.first;
+  const double trace = f[0] + f[1] + f[2];
+  const double quadratic =
+      f[0] * xx + f[1] * yy + f[2] * zz + 2 * (f[3] * x * y + f[4] * x * z + f[5] * y * z);
+  const auto& s = m.second;
+  const double traces =
+      (s[0] + s[5] + s[7]) * x + (s[1] + s[3] + s[8]) * y + (s[2] + s[4] + s[6]) * z;
+  const double cubic =
+      s[0] * xx * x + s[1] * yy * y + s[2] * zz * z +
+      3 * (xx * (s[3] * y + s[4] * z) + yy * (s[5] * x + s[6] * z) + zz * (s[7] * x + s[8] * y)) +
+      6 * s[9] * x * y * z;
+  return (dot(m.area, d) + trace - (3 * quadratic + 4.5 * traces) * inverse2 +
+          7.5 * cubic * inverse2 * inverse2) *
+         inverse3;
+}
+
 TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
   const auto n = static_cast<std::uint32_t>(triangles_.size());
   if (n == 0) return;
@@ -156,17 +177,38 @@ void TriangleTree::setMoments(std::uint32_t node) {
   double radius2 = 0;
   for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
     const Vec3d a = areaVector(leaves_[i]);
-    const Vec3d c = centroid(leaves_[i]) - m.center;
-    m.spread[0] += c.x * a.x;
-    m.spread[1] += c.y * a.y;
-    m.spread[2] += c.z * a.z;
-    m.spread[3] += (c.x * a.y + c.y * a.x) * 0.5;
-    m.spread[4] += (c.x * a.z + c.z * a.x) * 0.5;
-    m.spread[5] += (c.y * a.z + c.z * a.y) * 0.5;
+    const Vec3d middle = centroid(leaves_[i]);
+    const Vec3d c = middle - m.center;
+    m.first[0] += c.x * a.x;
+    m.first[1] += c.y * a.y;
+    m.first[2] += c.z * a.z;
+    m.first[3] += (c.x * a.y + c.y * a.x) * 0.5;
+    m.first[4] += (c.x * a.z + c.z * a.x) * 0.5;
+    m.first[5] += (c.y * a.z + c.z * a.y) * 0.5;
+    // The mean of x x over the triangle: that of its centroid and its own around it.
+    double xx = c.x * c.x, yy = c.y * c.y, zz = c.z * c.z;
+    double xy = c.x * c.y, xz = c.x * c.z, yz = c.y * c.z;
     for (const Vec3d& corner : leaves_[i]) {
+      const Vec3d o = corner - middle;
+      xx += o.x * o.x / 12;
+      yy += o.y * o.y / 12;
+      zz += o.z * o.z / 12;
+      xy += o.x * o.y / 12;
+      xz += o.x * o.z / 12;
+      yz += o.y * o.z / 12;
       const Vec3d d = corner - m.center;
       radius2 = std::max(radius2, dot(d, d));
     }
+    m.second[0] += xx * a.x;
+    m.second[1] += yy * a.y;
+    m.second[2] += zz * a.z;
+    m.second[3] += (xx * a.y + 2 * xy * a.x) / 3;
+    m.second[4] += (xx * a.z + 2 * xz * a.x) / 3;
+    m.second[5] += (yy * a.x + 2 * xy * a.y) / 3;
+    m.second[6] += (yy * a.z + 2 * yz * a.y) / 3;
+    m.second[7] += (zz * a.x + 2 * xz * a.z) / 3;
+    m.second[8] += (zz * a.y + 2 * yz * a.z) / 3;
+    m.second[9] += (xy * a.z + xz * a.y + yz * a.x) / 3;
   }
   m.reach2 = kFar * kFar * radius2;
 }
@@ -220,12 +262,7 @@ double TriangleTree::windingNumber(const Vec3d& p) const {
     const Vec3d d = m.center - p;
     const double r2 = dot(d, d);
     if (r2 > m.reach2) {
-      const double inverse2 = 1 / r2, inverse3 = inverse2 * std::sqrt(inverse2);
-      const auto& s = m.spread;
-      const double trace = s[0] + s[1] + s[2];
-      const double quadratic = s[0] * d.x * d.x + s[1] * d.y * d.y + s[2] * d.z * d.z +
-                               2 * (s[3] * d.x * d.y + s[4] * d.x * d.z + s[5] * d.y * d.z);
-      far += (dot(m.area, d) + trace - 3 * quadratic * inverse2) * inverse3;
+      far += expansion(m, d, r2);
     } else if (n.right == 0) {
       for (std::uint32_t i = n.first; i < n.first + n.count; ++i) near += solidAngle(leaves_[i], p);
     } else {

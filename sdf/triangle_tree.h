@@ -36,7 +36,7 @@ class TriangleTree {
   /// harmonic off the triangles for open ones (Jacobson, Kavan, Sorkine-Hornung: "Robust
   /// inside-outside segmentation using generalized winding numbers", SIGGRAPH 2013, equation 3).
   ///
-  /// Far clusters of triangles stand in by the first two terms of their multipole expansion
+  /// Far clusters of triangles stand in by the first three terms of their multipole expansion
   /// (Barill, Dickson, Schmidt, Levin, Jacobson: "Fast winding numbers for soups and clouds",
   /// SIGGRAPH 2018, section 3), near ones count exactly, so the error is below 0.01 and there is
   /// none that grows towards the surface.
@@ -53,17 +53,18 @@ class TriangleTree {
     std::uint32_t count = 0;  // triangles below this node
     std::uint32_t right = 0;  // the right child; the left one is the next node; 0: a leaf
   };
-  // A cluster seen from afar: moments of its area vectors about `center`.
+  // A cluster seen from afar: moments of its area vectors a over x, the position from `center`.
   struct Moments {
     Vec3d center;
-    double reach2 = 0;  // squared radius within which the expansion is not used
-    Vec3d area;         // sum of the triangles' area vectors
-    std::array<double, 6>
-        spread{};  // symmetric part of sum (c_i - center) (x) area_i: xx yy zz xy xz yz
+    double reach2 = 0;                // squared distance within which the expansion is not used
+    Vec3d area;                       // sum of a
+    std::array<double, 6> first{};    // sum of x a, symmetric part: xx yy zz xy xz yz
+    std::array<double, 10> second{};  // sum of x x a: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
   };
 
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   void setMoments(std::uint32_t node);
+  static double expansion(const Moments& m, const Vec3d& d, double r2);
 
   std::vector<Corners> triangles_;
   std::vector<std::uint32_t> order_;  // triangles as the leaves hold them

@@ -1,0 +1,342 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "sdf/vdb_file.h"
+
+#include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Dense.h>
+#include <openvdb/tools/Prune.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "sdf/openvdb_ready.h"
+#include "sdf/redistance.h"
+
+namespace exemplar {
+namespace {
+
+namespace fs = std::filesystem;
+using openvdb::Coord;
+using openvdb::CoordBBox;
+
+// Metadata of ours: the box of samples, which may reach beyond the active voxels, and the field's
+// truncation, which a full field's background does not tell.
+constexpr const char* kBoxMin = "exemplar_box_min";
+constexpr const char* kBoxMax = "exemplar_box_max";
+constexpr const char* kTruncation = "exemplar_truncation";
+
+// Where the unique id stands in a .vdb file (its header: 8 bytes of magic number, three 4-byte
+// versions, 1 byte for "has offsets") and how long it is.
+constexpr std::size_t kIdBegin = 21, kIdLength = 36;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw InputError(path.string() + ": " + what);
+}
+
+std::uint64_t hash(std::string_view bytes, std::uint64_t h) {
+  for (const char c : bytes) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return h;
+}
+
+// Writes grids through OpenVDB, and puts a hash of the content in place of the random id that
+// OpenVDB gives each file: the same grids give the same bytes.
+void writeGrids(const fs::path& path, const openvdb::GridCPtrVec& grids) {
+  OutputFile out(path);
+  try {
+    openvdb::io::File file(out.temporaryPath().string());
+    file.write(grids);
+    file.close();
+  } catch (const std::exception& error) {
+    fail(path, std::string("cannot be written: ") + error.what());
+  }
+  std::string bytes = readFile(out.temporaryPath());
+  if (bytes.size() < kIdBegin + kIdLength) fail(path, "cannot be written: the disk may be full");
+  bytes.replace(kIdBegin, kIdLength, kIdLength, '0');
+  const std::uint64_t a = hash(bytes, 0xcbf29ce484222325u), b = hash(bytes, a);
+  char id[kIdLength + 1];
+  std::snprintf(id, sizeof id, "%08x-%04x-4%03x-8%03x-%012llx", static_cast<unsigned>(a >> 32),
+                static_cast<unsigned>(a >> 16 & 0xffff), static_cast<unsigned>(a & 0xfff),
+                static_cast<unsigned>(b >> 48 & 0xfff),
+                static_cast<unsigned long long>(b & 0xffffffffffff));
+  bytes.replace(kIdBegin, kIdLength, id, kIdLength);
+  out.write(bytes);
+  out.commit();
+}
+
+// A stream over bytes that are already in memory, without a second copy of them.
+class BytesBuffer : public std::streambuf {
+ public:
+  explicit BytesBuffer(std::string& bytes) {
+    setg(bytes.data(), bytes.data(), bytes.data() + bytes.size());
+  }
+
+ protected:
+  pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
+    const off_type base = from == std::ios_base::beg   ? 0
+                          : from == std::ios_base::cur ? gptr() - eback()
+                                                       : egptr() - eback();
+    const off_type to = base + offset;
+    if (to < 0 || to > egptr() - eback()) return pos_type(off_type(-1));
+    setg(eback(), eback() + to, egptr());
+    return pos_type(to);
+  }
+  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override {
+    return seekoff(off_type(position), std::ios_base::beg, mode);
+  }
+};
+
+// Calls `use` with the grids of a file. Whatever OpenVDB throws becomes an InputError.
+template <class Result>
+Result withGrids(const fs::path& path,
+                 const std::function<Result(const openvdb::GridPtrVec&)>& use) {
+  openvdbReady();
+  std::string bytes = readFile(path);
+  try {
+    BytesBuffer buffer(bytes);
+    std::istream in(&buffer);
+    // OpenVDB does not look at the stream's state; with this, a read beyond the end throws.
+    in.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+    openvdb::io::Stream stream(in, /*delayLoad=*/false);
+    return use(*stream.getGrids());
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    fail(path, "not a whole OpenVDB file (" + what + ")");
+  }
+}
+
+template <class Grid>
+typename Grid::Ptr firstGrid(const openvdb::GridPtrVec& grids, const std::string& name) {
+  for (const auto& grid : grids) {
+    if (auto found = openvdb::gridPtrCast<Grid>(grid);
+        found && (name.empty() || grid->getName() == name))
+      return found;
+  }
+  return nullptr;
+}
+
+// The box that samples are read from: ours where the file has it, else that of the active voxels.
+CoordBBox sampleBox(const openvdb::GridBase& grid, const fs::path& path) {
+  CoordBBox box = grid.evalActiveVoxelBoundingBox();
+  const auto low = grid.getMetadata<openvdb::Vec3IMetadata>(kBoxMin);
+  const auto high = grid.getMetadata<openvdb::Vec3IMetadata>(kBoxMax);
+  if (low && high) {
+    const CoordBBox stated{Coord(low->value()), Coord(high->value())};
+    if (!stated.empty() && (box.empty() || stated.isInside(box))) box = stated;
+  }
+  if (box.empty()) fail(path, "the grid \"" + grid.getName() + "\" has no active voxels");
+  double bytes = 4;
+  for (int axis = 0; axis < 3; ++axis)
+    bytes *= double(box.max()[axis]) - double(box.min()[axis]) + 1;
+  requireMemory(bytes * 3, path.string() + ": its active box as dense samples",
+                "write the grid with a smaller active region or larger voxels");
+  for (int axis = 0; axis < 3; ++axis)
+    if (double(box.max()[axis]) - double(box.min()[axis]) > std::numeric_limits<int>::max() - 4.0)
+      fail(path, "its active box is too long to sample densely");
+  return box;
+}
+
+struct Placement {
+  double voxelSize;
+  Vec3d origin;  // of the box's first sample
+};
+
+Placement placement(const openvdb::GridBase& grid, const CoordBBox& box, const fs::path& path) {
+  const auto& transform = grid.transform();
+  const auto corner = [&](int x, int y, int z) {
+    return transform.indexToWorld(openvdb::Vec3d(x, y, z));
+  };
+  const openvdb::Vec3d zero = corner(0, 0, 0), dx = corner(1, 0, 0) - zero,
+                       dy = corner(0, 1, 0) - zero, dz = corner(0, 0, 1) - zero;
+  const double h = dx[0], tolerance = 1e-5 * std::abs(h);
+  const bool cubes = transform.isLinear() && h > 0 && std::isfinite(h) &&
+                     (dx - openvdb::Vec3d(h, 0, 0)).length() <= tolerance &&
+                     (dy - openvdb::Vec3d(0, h, 0)).length() <= tolerance &&
+                     (dz - openvdb::Vec3d(0, 0, h)).length() <= tolerance;
+  const openvdb::Vec3d first = transform.indexToWorld(box.min());
+  if (!cubes || !std::isfinite(first.length()))
+    fail(path, "the voxels of the grid \"" + grid.getName() +
+                   "\" are no axis-aligned cubes; resample it to a uniform voxel size");
+  return {h, {first[0], first[1], first[2]}};
+}
+
+Vec3i sizeOf(const CoordBBox& box) {
+  const Coord dim = box.dim();
+  return {dim.x(), dim.y(), dim.z()};
+}
+
+// Samples of a box of a grid, x fastest.
+template <class T, class Grid, class Convert>
+Array3D<T> readDense(const Grid& grid, const CoordBBox& box, const Convert& convert) {
+  Array3D<T> values(sizeOf(box));
+  const Vec3i size = values.size();
+  parallelFor(0, static_cast<std::size_t>(size.z), 1, [&](std::size_t k0, std::size_t k1) {
+    const auto accessor = grid.getConstUnsafeAccessor();
+    for (auto k = static_cast<int>(k0); k < static_cast<int>(k1); ++k)
+      for (int j = 0; j < size.y; ++j)
+        for (int i = 0; i < size.x; ++i)
+          values(i, j, k) = convert(accessor.getValue(box.min().offsetBy(i, j, k)));
+  });
+  return values;
+}
+
+// The values as signed distances: as they are, or, for a fog volume, measured from its 0.5.
+template <class Grid>
+DistanceField fieldFrom(const Grid& grid, const fs::path& path) {
+  const auto gridClass = grid.getGridClass();
+  CoordBBox box = sampleBox(grid, path);
+  // A density's active voxels may end right at its surface.
+  if (gridClass != openvdb::GRID_LEVEL_SET) box.expand(1);
+  const Placement place = placement(grid, box, path);
+  DistanceField field;
+  field.voxelSize = place.voxelSize;
+  field.origin = place.origin;
+  field.values = readDense<float>(grid, box, [](auto v) { return static_cast<float>(v); });
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (const float v : field.values.values()) {
+    if (!std::isfinite(v))
+      fail(path, "the grid \"" + grid.getName() + "\" holds NaN or infinite values");
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  // Files of unknown class: distances have both signs, densities are never negative.
+  const bool fog =
+      gridClass == openvdb::GRID_FOG_VOLUME || (gridClass != openvdb::GRID_LEVEL_SET && low >= 0);
+  if (fog) {
+    for (float& v : field.values.values()) v = 0.5f - v;
+    return redistance(field);
+  }
+  field.truncation = std::max({static_cast<float>(std::abs(grid.background())), -low, high});
+  if (const auto stated = grid.template getMetadata<openvdb::FloatMetadata>(kTruncation);
+      stated && stated->value() >= field.truncation) {
+    field.truncation = stated->value();
+  }
+  return field;
+}
+
+template <class Grid>
+void place(Grid& grid, const DistanceField& field) {
+  const Vec3i size = field.size();
+  auto transform = openvdb::math::Transform::createLinearTransform(field.voxelSize);
+  transform->postTranslate({field.origin.x, field.origin.y, field.origin.z});
+  grid.setTransform(transform);
+  grid.insertMeta(kBoxMin, openvdb::Vec3IMetadata({0, 0, 0}));
+  grid.insertMeta(kBoxMax, openvdb::Vec3IMetadata({size.x - 1, size.y - 1, size.z - 1}));
+  grid.setCreator("exemplar");
+}
+
+void requireSamples(const fs::path& path, std::size_t count) {
+  if (count == 0) fail(path, "cannot be written: the field has no samples");
+}
+
+}  // namespace
+
+void openvdbReady() { openvdb::initialize(); }
+
+void writeVdb(const fs::path& path, const DistanceField& field) {
+  requireSamples(path, field.values.count());
+  openvdbReady();
+  float background = field.truncation;
+  if (!std::isfinite(background)) {
+    background = 0;
+    for (const float v : field.values.values()) background = std::max(background, std::abs(v));
+    background = std::max(background, static_cast<float>(field.voxelSize));
+  }
+  const auto grid = openvdb::FloatGrid::create(background);
+  grid->setName("surface");
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  place(*grid, field);
+  grid->insertMeta(kTruncation, openvdb::FloatMetadata(field.truncation));
+  const Vec3i size = field.size();
+  // The view is only read, but OpenVDB has none of constant samples.
+  const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
+      CoordBBox({0, 0, 0}, {size.x - 1, size.y - 1, size.z - 1}),
+      const_cast<float*>(field.values.data()));
+  openvdb::tools::copyFromDense(dense, *grid, 0.0f);
+  for (auto leaf = grid->tree().beginLeaf(); leaf; ++leaf) {
+    for (auto v = leaf->beginValueOn(); v; ++v) {
+      if (std::abs(*v) >= background && std::isfinite(field.truncation)) v.setValueOff();
+    }
+  }
+  openvdb::tools::pruneLevelSet(grid->tree());
+  writeGrids(path, {grid});
+}
+
+DistanceField readVdb(const fs::path& path) {
+  return withGrids<DistanceField>(path, [&](const openvdb::GridPtrVec& grids) {
+    if (const auto grid = firstGrid<openvdb::FloatGrid>(grids, "")) return fieldFrom(*grid, path);
+    if (const auto grid = firstGrid<openvdb::DoubleGrid>(grids, "")) return fieldFrom(*grid, path);
+    std::string names;
+    for (const auto& grid : grids)
+      names += (names.empty() ? "" : ", ") + grid->getName() + " (" + grid->valueType() + ")";
+    fail(path, "holds no grid of floats" + (names.empty() ? std::string() : "; it has " + names));
+  });
+}
+
+void writeOriginsVdb(const fs::path& path, const Origins& origins, const DistanceField& field) {
+  requireSamples(path, origins.count());
+  openvdbReady();
+  // Backgrounds that no cell has: every cell is an active voxel.
+  const auto cells = openvdb::Vec3IGrid::create(openvdb::Vec3i(std::numeric_limits<int>::min()));
+  const auto sources = openvdb::Int32Grid::create(-1);
+  cells->setName("origin");
+  sources->setName("source");
+  place(*cells, field);
+  place(*sources, field);
+  const Vec3i size = origins.size();
+  for (const auto& grid : {openvdb::GridBase::Ptr(cells), openvdb::GridBase::Ptr(sources)})
+    grid->insertMeta(kBoxMax, openvdb::Vec3IMetadata({size.x - 1, size.y - 1, size.z - 1}));
+  auto cell = cells->getAccessor();
+  auto source = sources->getAccessor();
+  for (std::size_t s = 0; s < origins.count(); ++s) {
+    const Origin& o = origins.values()[s];
+    const Vec3i ijk = origins.ijk(s);
+    const Coord at(ijk.x, ijk.y, ijk.z);
+    cell.setValue(at, {o.i, o.j, o.k});
+    source.setValue(at, o.example * 4 + o.turns);
+  }
+  writeGrids(path, {cells, sources});
+}
+
+Origins readOriginsVdb(const fs::path& path) {
+  return withGrids<Origins>(path, [&](const openvdb::GridPtrVec& grids) {
+    const auto cells = firstGrid<openvdb::Vec3IGrid>(grids, "origin");
+    const auto sources = firstGrid<openvdb::Int32Grid>(grids, "source");
+    if (!cells || !sources)
+      fail(path, "holds no origins: the grids \"origin\" and \"source\" are missing");
+    const CoordBBox box = sampleBox(*cells, path);
+    if (sampleBox(*sources, path) != box)
+      fail(path, "the grids \"origin\" and \"source\" differ in size");
+    const auto ijk = readDense<openvdb::Vec3i>(*cells, box, [](const auto& v) { return v; });
+    const auto from = readDense<int>(*sources, box, [](int v) { return v; });
+    Origins origins(sizeOf(box));
+    for (std::size_t s = 0; s < origins.count(); ++s) {
+      const openvdb::Vec3i& c = ijk.values()[s];
+      const int v = from.values()[s];
+      const auto fits = [](int x) {
+        return x >= 0 && x <= std::numeric_limits<std::int16_t>::max();
+      };
+      if (!fits(c[0]) || !fits(c[1]) || !fits(c[2]) || v < 0 || v >= 256 * 4)
+        fail(path, "an origin is out of range; cells are 0..32767, sources 0..1023");
+      origins.values()[s] = Origin({c[0], c[1], c[2]}, v / 4, v % 4);
+    }
+    return origins;
+  });
+}
+
+}  // namespace exemplar
