@@ -26,6 +26,7 @@ Format formatOf(const fs::path& path) {
   if (ending == ".ply") return Format::Ply;
   if (ending == ".stl") return Format::Stl;
   if (ending == ".off") return Format::Off;
+  if (ending == ".glb") return Format::Glb;
   return Format::None;
 }
 
@@ -78,7 +79,8 @@ TriangleMesh readMesh(const fs::path& path, const MeshFileOptions& options) {
   TriangleMesh mesh = format == Format::Obj   ? parseObj(bytes, name, sibling)
                       : format == Format::Ply ? parsePly(bytes, name)
                       : format == Format::Stl ? parseStl(bytes, name)
-                      : parseOff(bytes, name);
+                      : format == Format::Off ? parseOff(bytes, name)
+                                              : parseGlb(bytes, name, sibling);
   if (isYUp(format, options.up)) {
     for (Vec3d& p : mesh.positions) p = fromFileAxes(p, true);
   }
@@ -95,7 +97,8 @@ void writeMesh(const fs::path& path, const TriangleMesh& mesh, const MeshFileOpt
     OutputFile out(path);
     out.write(format == Format::Ply   ? formatPly(mesh, yUp)
               : format == Format::Stl ? formatStl(mesh, yUp)
-              : formatOff(mesh, yUp));
+              : format == Format::Off ? formatOff(mesh, yUp)
+                                      : formatGlb(mesh, yUp));
     out.commit();
     return;
   }

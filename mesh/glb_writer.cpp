@@ -1,0 +1,294 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+
+#include "core/error.h"
+#include "mesh/mesh_formats.h"
+
+namespace exemplar {
+namespace {
+
+/// Keeps the order in which members are added.
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t kNone = 0xffffffff;
+constexpr int kFloat = 5126, kUnsignedInt = 5125;
+constexpr int kVertices = 34962, kIndices = 34963;
+
+void appendLittle(std::string& out, std::uint32_t value) {
+  for (int i = 0; i < 4; ++i) out += static_cast<char>(value >> (8 * i) & 255);
+}
+void appendLittle(std::string& out, float value) {
+  appendLittle(out, std::bit_cast<std::uint32_t>(value));
+}
+
+/// The vertices of the file: those of the mesh that triangles use, in their order, and behind them
+/// copies of the ones that have several texture coordinates.
+struct SplitVertices {
+  std::vector<std::uint32_t> source;  ///< each one's vertex in the mesh
+  std::vector<Vec2f> uvs;             ///< as many, or none
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+SplitVertices splitVertices(const TriangleMesh& mesh) {
+  SplitVertices out;
+  std::vector<std::uint32_t> first(mesh.positions.size(), kNone);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) first[v] = 0;
+  }
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    if (first[v] == kNone) continue;
+    first[v] = static_cast<std::uint32_t>(out.source.size());
+    out.source.push_back(static_cast<std::uint32_t>(v));
+  }
+  out.triangles.reserve(mesh.triangles.size());
+  if (!mesh.hasUvs()) {
+    for (const auto& [a, b, c] : mesh.triangles)
+      out.triangles.push_back({first[a], first[b], first[c]});
+    return out;
+  }
+  // Copies of one vertex form a list: next[i] is the copy after vertex i of the file.
+  out.uvs.resize(out.source.size());
+  std::vector<bool> hasUv(out.source.size(), false);
+  std::vector<std::uint32_t> next(out.source.size(), kNone);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    auto& triangle = out.triangles.emplace_back();
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t v = mesh.triangles[t][c];
+      const Vec2f uv = mesh.uvs[t][c];
+      std::uint32_t i = first[v];
+      if (!hasUv[i]) {
+        hasUv[i] = true;
+        out.uvs[i] = uv;
+      }
+      while (out.uvs[i] != uv && next[i] != kNone) i = next[i];
+      if (out.uvs[i] != uv) {
+        next[i] = static_cast<std::uint32_t>(out.source.size());
+        i = next[i];
+        out.source.push_back(v);
+        out.uvs.push_back(uv);
+        next.push_back(kNone);
+        hasUv.push_back(true);
+      }
+      triangle[c] = i;
+    }
+  }
+  return out;
+}
+
+float unit(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
+
+class GlbWriter {
+ public:
+  GlbWriter(const TriangleMesh& mesh, bool yUp) : mesh_(mesh), yUp_(yUp) {}
+
+  std::string write() {
+    json_["asset"] = {{"version", "2.0"}, {"generator", "exemplar"}};
+    json_["scene"] = 0;
+    json_["scenes"] = Json::array({{{"nodes", {0}}}});
+    json_["nodes"] = Json::array({{{"mesh", 0}}});
+    addPrimitives();
+    addMaterials();
+    json_["accessors"] = std::move(accessors_);
+    json_["bufferViews"] = std::move(views_);
+    json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+    if (!extensions_.empty()) json_["extensionsUsed"] = std::move(extensions_);
+    return container();
+  }
+
+ private:
+  int endView(std::size_t begin, int target) {
+    Json view{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", binary_.size() - begin}};
+    if (target != 0) view["target"] = target;
+    views_.push_back(std::move(view));
+    while (binary_.size() % 4 != 0) binary_ += '\0';
+    return static_cast<int>(views_.size() - 1);
+  }
+
+  int addAccessor(int view, int componentType, std::size_t count, const char* type,
+                  std::size_t offset = 0) {
+    Json accessor{{"bufferView", view}};
+    if (offset != 0) accessor["byteOffset"] = offset;
+    accessor["componentType"] = componentType;
+    accessor["count"] = count;
+    accessor["type"] = type;
+    accessors_.push_back(std::move(accessor));
+    return static_cast<int>(accessors_.size() - 1);
+  }
+
+  int addPositions(const std::vector<std::uint32_t>& source) {
+    const std::size_t begin = binary_.size();
+    Vec3f low{std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
+              std::numeric_limits<float>::max()};
+    Vec3f high = -low;
+    for (const std::uint32_t v : source) {
+      const Vec3f p = cast<float>(toFileAxes(mesh_.positions[v], yUp_));
+      low = min(low, p);
+      high = max(high, p);
+      for (const float c : {p.x, p.y, p.z}) appendLittle(binary_, c);
+    }
+    const int accessor = addAccessor(endView(begin, kVertices), kFloat, source.size(), "VEC3");
+    accessors_.back()["min"] = {low.x, low.y, low.z};
+    accessors_.back()["max"] = {high.x, high.y, high.z};
+    return accessor;
+  }
+
+  int addColors(const std::vector<std::uint32_t>& source) {
+    const std::size_t begin = binary_.size();
+    const int channels = hasAlpha() ? 4 : 3;
+    for (const std::uint32_t v : source) {
+      for (int c = 0; c < channels; ++c) appendLittle(binary_, unit(mesh_.colors[v][c]));
+    }
+    return addAccessor(endView(begin, kVertices), kFloat, source.size(),
+                       channels == 4 ? "VEC4" : "VEC3");
+  }
+
+  bool hasAlpha() const {
+    return std::any_of(mesh_.colors.begin(), mesh_.colors.end(),
+                       [](const auto& c) { return c[3] < 1; });
+  }
+
+  /// One primitive for each material, all with the same vertices.
+  void addPrimitives() {
+    const SplitVertices vertices = splitVertices(mesh_);
+    Json attributes{{"POSITION", addPositions(vertices.source)}};
+    if (mesh_.hasColors()) attributes["COLOR_0"] = addColors(vertices.source);
+    if (mesh_.hasUvs()) {
+      const std::size_t begin = binary_.size();
+      for (const Vec2f& uv : vertices.uvs) {
+        appendLittle(binary_, uv.x);
+        appendLittle(binary_, 1 - uv.y);  // v points down in glTF
+      }
+      attributes["TEXCOORD_0"] =
+          addAccessor(endView(begin, kVertices), kFloat, vertices.uvs.size(), "VEC2");
+    }
+    // The triangles of each material, one behind the other in one view.
+    const std::size_t materials = mesh_.hasMaterials() ? mesh_.materials.size() : 1;
+    std::vector<std::vector<std::uint32_t>> trianglesOf(materials);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      trianglesOf[mesh_.hasMaterials() ? mesh_.triangleMaterials[t] : 0].push_back(
+          static_cast<std::uint32_t>(t));
+    }
+    const std::size_t begin = binary_.size();
+    for (const auto& triangles : trianglesOf) {
+      for (const std::uint32_t t : triangles) {
+        for (const std::uint32_t v : vertices.triangles[t]) appendLittle(binary_, v);
+      }
+    }
+    const int view = endView(begin, kIndices);
+    Json primitives = Json::array();
+    std::size_t offset = 0;
+    for (const auto& triangles : trianglesOf) {
+      if (triangles.empty()) {
+        materialOf_.push_back(kNone);
+        continue;
+      }
+      materialOf_.push_back(used_++);
+      const int indices = addAccessor(view, kUnsignedInt, 3 * triangles.size(), "SCALAR", offset);
+      primitives.push_back(
+          {{"attributes", attributes}, {"indices", indices}, {"material", materialOf_.back()}});
+      offset += 12 * triangles.size();
+    }
+    json_["meshes"] = Json::array({{{"primitives", std::move(primitives)}}});
+  }
+
+  void addMaterials() {
+    Json materials = Json::array();
+    if (!mesh_.hasMaterials()) {
+      // The standard's default material is metal, which is black in most viewers. The mark lets our
+      // reader leave it out again.
+      Material plain;
+      if (mesh_.hasColors()) plain.baseColor = {1, 1, 1, 1};
+      materials.push_back(materialJson(plain));
+      materials.back()["extras"] = {{"exemplarPlaceholder", true}};
+    }
+    for (std::size_t m = 0; m < mesh_.materials.size() && mesh_.hasMaterials(); ++m) {
+      if (materialOf_[m] != kNone) materials.push_back(materialJson(mesh_.materials[m]));
+    }
+    json_["materials"] = std::move(materials);
+    if (!textures_.empty()) {
+      json_["textures"] = std::move(textures_);
+      json_["images"] = std::move(images_);
+    }
+  }
+
+  Json materialJson(const Material& m) {
+    Json json;
+    if (!m.name.empty()) json["name"] = m.name;
+    Json& pbr = json["pbrMetallicRoughness"];
+    pbr["baseColorFactor"] = {unit(m.baseColor[0]), unit(m.baseColor[1]), unit(m.baseColor[2]),
+                              unit(m.baseColor[3])};
+    pbr["metallicFactor"] = unit(m.metallic);
+    pbr["roughnessFactor"] = unit(m.roughness);
+    if (m.baseColorTexture) pbr["baseColorTexture"] = {{"index", addTexture(*m.baseColorTexture)}};
+    const float strongest = std::max({m.emission.x, m.emission.y, m.emission.z, 0.0f});
+    if (strongest > 0) {
+      // Factors go up to 1; a power of two takes the rest exactly.
+      float strength = 1;
+      while (strength < strongest && strength < 1e30f) strength *= 2;
+      const auto factor = [&](float e) { return unit(e / strength); };
+      json["emissiveFactor"] = {factor(m.emission.x), factor(m.emission.y), factor(m.emission.z)};
+      if (strength > 1) {
+        json["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
+        extensions_ = Json::array({"KHR_materials_emissive_strength"});
+      }
+    }
+    if (m.baseColor[3] < 1 || hasAlpha()) json["alphaMode"] = "BLEND";
+    return json;
+  }
+
+  int addTexture(std::uint32_t index) {
+    textureOf_.resize(mesh_.textures.size(), -1);
+    if (textureOf_[index] >= 0) return textureOf_[index];
+    const Texture& texture = mesh_.textures[index];
+    const std::size_t begin = binary_.size();
+    binary_ += texture.bytes;
+    images_.push_back({{"name", texture.name},
+                       {"mimeType", texture.mimeType},
+                       {"bufferView", endView(begin, 0)}});
+    textures_.push_back({{"source", images_.size() - 1}});
+    return textureOf_[index] = static_cast<int>(textures_.size() - 1);
+  }
+
+  std::string container() const {
+    // Names may hold bytes that are not UTF-8; they are replaced rather than refused.
+    std::string json = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    while (json.size() % 4 != 0) json += ' ';
+    const std::size_t length = 12 + 8 + json.size() + 8 + binary_.size();
+    if (length > std::numeric_limits<std::uint32_t>::max()) {
+      throw InputError("the mesh needs a .glb of " + std::to_string(length) +
+                       " bytes, and its format ends at 4294967295; write a .ply");
+    }
+    std::string out;
+    out.reserve(length);
+    out += "glTF";
+    appendLittle(out, std::uint32_t{2});
+    appendLittle(out, static_cast<std::uint32_t>(length));
+    appendLittle(out, static_cast<std::uint32_t>(json.size()));
+    out += "JSON" + json;
+    appendLittle(out, static_cast<std::uint32_t>(binary_.size()));
+    out.append("BIN\0", 4);
+    return out += binary_;
+  }
+
+  const TriangleMesh& mesh_;
+  bool yUp_;
+  Json json_;
+  Json accessors_ = Json::array(), views_ = Json::array(), images_ = Json::array(),
+       textures_ = Json::array(), extensions_;
+  std::string binary_;
+  std::uint32_t used_ = 0;
+  std::vector<std::uint32_t> materialOf_;
+  std::vector<int> textureOf_;
+};
+
+}  // namespace
+
+std::string formatGlb(const TriangleMesh& mesh, bool yUp) { return GlbWriter(mesh, yUp).write(); }
+
+}  // namespace exemplar
