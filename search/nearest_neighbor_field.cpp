@@ -4,333 +4,318 @@
 #include "search/nearest_neighbor_field.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <string>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "core/simd.h"
+#include "search/block_match.h"
+#include "search/patch_tree.h"
 
 namespace exemplar {
+
 namespace {
 
-constexpr int kLanes = 8;
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
-constexpr std::uint32_t kSearchStream = 0x9a7c;
+using Candidate = PatchTree::Candidate;
+using Window = PatchTree::Window;
 
-/// A patch copied out, each row padded to whole lanes, so that one patch is compared with many.
-struct PackedPatch {
-  std::vector<float> samples;
-};
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr Candidate kNothing{std::numeric_limits<float>::infinity(), kNone,
+                             std::numeric_limits<float>::infinity()};
 
-/// How patches lie in the arrays that are compared.
-struct PatchShape {
-  Vec3i patch;
-  int chunks;                ///< of kLanes lanes a row
-  std::vector<float> known;  ///< 1 for lanes of the patch, 0 beyond its row: chunks * kLanes
+// Target patches are worked on in cubes of this side; one cube is one task, whatever the threads.
+constexpr int kTile = 12;
 
-  explicit PatchShape(const Vec3i& size)
-      : patch(size), chunks((size.x + kLanes - 1) / kLanes), known(chunks * kLanes, 0.0f) {
-    std::fill_n(known.begin(), size.x, 1.0f);
+void check(const PatchSet& source, const PatchSet& target, const Channels& sourceChannels,
+           const Channels& targetChannels, const NearestNeighborFieldOptions& options) {
+  if (sourceChannels.size() != targetChannels.size())
+    throw InputError("source and target of a nearest-neighbour field differ in their channels");
+  if (std::min({options.stride.x, options.stride.y, options.stride.z}) < 1)
+    throw InputError("the stride of a nearest-neighbour field must be at least 1");
+  if (options.iterations < 1)
+    throw InputError("the iterations of a nearest-neighbour field must be at least 1");
+  if (options.allowed && options.allowed->size() != source.size())
+    throw InputError("the mask of allowed positions differs in size from the source");
+  if (options.sourceWeight) {
+    if (options.sourceWeight->size() != source.size())
+      throw InputError("the source weights differ in size from the source");
+    for (float w : options.sourceWeight->values())
+      if (!(w > 0) || !std::isfinite(w))
+        throw InputError("source weights must be above 0 and finite");
   }
-  std::size_t packedSlice() const { return static_cast<std::size_t>(chunks) * kLanes * patch.y; }
-};
-
-/// The sum of squared differences of one slice (one k of one channel) of a packed patch and of the
-/// source at `from`; over-reads the source by less than kLanes samples.
-EXEMPLAR_MULTIVERSION
-float sliceDistance(const float* packed, const float* from, std::ptrdiff_t sourceRow, int rows,
-                    int chunks, const float* known) {
-  float sums[kLanes] = {};
-  for (int j = 0; j < rows; ++j, from += sourceRow) {
-    for (int c = 0; c < chunks; ++c, packed += kLanes) {
-      const float* s = from + c * kLanes;
-      const float* m = known + c * kLanes;
-      for (int l = 0; l < kLanes; ++l) {
-        const float d = (s[l] - packed[l]) * m[l];
-        sums[l] += d * d;
-      }
-    }
-  }
-  float sum = 0;
-  for (int l = 0; l < kLanes; ++l) sum += sums[l];
-  return sum;
+  (void)target;
 }
 
-/// The positions of a source that one target patch may use.
-struct Reach {
-  Vec3i low, high;  ///< inclusive
-  bool contains(const Vec3i& p) const {
-    return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y &&
-           p.z <= high.z;
-  }
-};
-
-class Search {
+// One computation: what the options mean for each target patch, and the candidates' costs.
+class Field {
  public:
-  Search(const Channels& source, const Channels& target, const NearestNeighborFieldOptions& options)
-      : options_(options), target_(target), shape_(options.patch) {
-    size_ = source.front().size();
-    places_ = size_ - options.patch + Vec3i{1, 1, 1};
-    targetPlaces_ = target.front().size() - options.patch + Vec3i{1, 1, 1};
-    for (const Array3D<float>& channel : source) {
-      std::vector<float> padded(channel.values().begin(), channel.values().end());
-      padded.resize(padded.size() + kLanes, 0.0f);
-      source_.push_back(std::move(padded));
-    }
-    scale_ = 1.0f / static_cast<float>(volume(options.patch));
-    const Vec3i n{(targetPlaces_.x - 1) / options.stride.x + 1,
-                  (targetPlaces_.y - 1) / options.stride.y + 1,
-                  (targetPlaces_.z - 1) / options.stride.z + 1};
-    field_.stride = options.stride;
-    field_.position = Array3D<Vec3i>(n);
-    field_.distance = Array3D<float>(n, kInfinite);
-    cost_ = Array3D<float>(n, kInfinite);
-    if (options.allowed) {
-      for (std::size_t s = 0; s < options.allowed->count(); ++s) {
-        const Vec3i p = options.allowed->ijk(s);
-        if (options.allowed->values()[s] && inPlaces(p)) allowedList_.push_back(p);
-      }
-      if (allowedList_.empty()) {
-        throw InputError("nearest-neighbor field: no source position is allowed");
-      }
-    }
+  Field(const Channels& source, const Channels& target, const NearestNeighborFieldOptions& options,
+        const Progress& progress)
+      : options_(options),
+        progress_(progress),
+        source_(source, options.patch),
+        target_(target, options.patch) {
+    check(source_, target_, source, target, options);
+    const Vec3i positions = target_.positions();
+    for (int axis = 0; axis < 3; ++axis)
+      shape_[axis] = (positions[axis] + options.stride[axis] - 1) / options.stride[axis];
+    best_ = Array3D<Candidate>(shape_, kNothing);
+    for (int axis = 0; axis < 3; ++axis) windowed_ = windowed_ || options.window[axis] >= 0;
+    findAllowed();
+    if (options.start && options.start->position.size() != shape_)
+      throw InputError("the start of a nearest-neighbour field has another shape");
   }
 
-  NearestNeighborField run(const Progress& progress) {
-    const std::size_t patches = field_.position.count();
-    if (options_.method == NeighborMethod::Exact) {
-      forPatches(
-          patches, 16, [&](std::size_t q, PackedPatch& packed) { searchAll(q, packed); }, progress);
-    } else {
-      forPatches(
-          patches, 256, [&](std::size_t q, PackedPatch& packed) { begin(q, packed); }, progress);
-      for (int iteration = 0; iteration < options_.iterations && !progress.cancelled();
-           ++iteration) {
-        // Patches of one parity look at neighbours of the other only, an odd number of steps away.
-        for (int parity = 0; parity < 2; ++parity) {
-          forPatches(
-              patches, 256,
-              [&](std::size_t q, PackedPatch& packed) {
-                const Vec3i p = field_.position.ijk(q);
-                if (((p.x + p.y + p.z) & 1) == parity) improve(q, iteration, packed);
-              },
-              progress);
-        }
-      }
+  NearestNeighborField run() {
+    const bool complete =
+        options_.method == NeighborMethod::Exact ? searchExactly() : searchByCoherence();
+    NearestNeighborField field;
+    field.stride = options_.stride;
+    field.position = Array3D<Vec3i>(shape_);
+    field.distance = Array3D<float>(shape_);
+    field.complete = complete;
+    for (std::size_t i = 0; i < best_.count(); ++i) {
+      const Candidate& c = best_.data()[i];
+      field.position.data()[i] = source_.position(c.index == kNone ? firstAllowed_ : c.index);
+      field.distance.data()[i] =
+          c.sum / static_cast<float>(options_.patch.x * options_.patch.y * options_.patch.z);
     }
-    field_.complete = !progress.cancelled();
-    return std::move(field_);
+    return field;
   }
 
  private:
-  template <class Body>
-  void forPatches(std::size_t patches, std::size_t grain, const Body& body,
-                  const Progress& progress) {
-    parallelFor(0, patches, grain, [&](std::size_t first, std::size_t last) {
-      if (progress.cancelled()) return;
-      PackedPatch packed;
-      for (std::size_t q = first; q < last; ++q) body(q, packed);
+  void findAllowed() {
+    const Vec3i positions = source_.positions();
+    for (int k = 0; k < positions.z; ++k)
+      for (int j = 0; j < positions.y; ++j)
+        for (int i = 0; i < positions.x; ++i)
+          if (!options_.allowed || (*options_.allowed)(i, j, k)) {
+            const std::uint32_t index = source_.index({i, j, k});
+            if (firstAllowed_ == kNone) firstAllowed_ = index;
+            if (options_.allowed) allowed_.push_back(index);
+          }
+    if (firstAllowed_ == kNone)
+      throw InputError("no source position of the nearest-neighbour field is allowed");
+  }
+
+  Vec3i patchPosition(const Vec3i& patch) const { return scaled(patch, options_.stride); }
+
+  Window window(const Vec3i& patch) const {
+    const Vec3i last = source_.positions() - Vec3i{1, 1, 1};
+    const Vec3i targetLast = target_.positions() - Vec3i{1, 1, 1};
+    Window window{{0, 0, 0}, last};
+    const Vec3i p = patchPosition(patch);
+    for (int axis = 0; axis < 3; ++axis)
+      if (options_.window[axis] >= 0) {
+        const int center = targetLast[axis] == 0
+                               ? last[axis] / 2
+                               : static_cast<int>(std::lround(static_cast<double>(p[axis]) *
+                                                              last[axis] / targetLast[axis]));
+        window.first[axis] = std::max(0, center - options_.window[axis]);
+        window.last[axis] = std::min(last[axis], center + options_.window[axis]);
+      }
+    return window;
+  }
+
+  bool mayUse(const Vec3i& p, const Window& window) const {
+    if (max(p, window.first) != p || min(p, window.last) != p) return false;
+    return !options_.allowed || (*options_.allowed)[p] != 0;
+  }
+
+  // Takes the source patch at `p` if it may be used and comes before `best`.
+  void offer(const float* gathered, const Vec3i& p, const Window& window, Candidate& best) const {
+    if (!mayUse(p, window)) return;
+    const std::uint32_t index = source_.index(p);
+    if (index == best.index) return;
+    const float w = options_.sourceWeight ? options_.sourceWeight->data()[index] : 1.0f;
+    const float limit = best.cost / w * 1.00001f;
+    const float sum = source_.sum(gathered, index, limit);
+    const Candidate candidate{w * sum, index, sum};
+    if (sum <= limit && candidate.before(best)) best = candidate;
+  }
+
+  // Cuts the target into tiles and works on them in parallel; false when cancelled.
+  template <class Work>
+  bool forTiles(const char* stage, double from, double to, const Work& work) {
+    const Vec3i tiles{(shape_.x + kTile - 1) / kTile, (shape_.y + kTile - 1) / kTile,
+                      (shape_.z + kTile - 1) / kTile};
+    const std::size_t count = static_cast<std::size_t>(volume(tiles));
+    std::atomic<std::size_t> done = 0;
+    std::mutex reporting;
+    parallelFor(0, count, 1, [&](std::size_t begin, std::size_t end) {
+      std::vector<float> gathered(target_.gatheredLength());
+      for (std::size_t t = begin; t < end; ++t) {
+        if (progress_.cancelled()) return;
+        const Vec3i tile{static_cast<int>(t % tiles.x), static_cast<int>(t / tiles.x % tiles.y),
+                         static_cast<int>(t / tiles.x / tiles.y)};
+        const Vec3i first = tile * kTile;
+        work(first, min(first + Vec3i{kTile, kTile, kTile}, shape_), gathered.data());
+        const std::size_t finished = ++done;
+        const std::lock_guard lock(reporting);
+        progress_.report(
+            stage, from + (to - from) * static_cast<double>(finished) / static_cast<double>(count));
+      }
+    });
+    return !progress_.cancelled();
+  }
+
+  void offerStart(const float* gathered, const Vec3i& patch, const Window& window,
+                  Candidate& best) const {
+    if (options_.start) offer(gathered, options_.start->position[patch], window, best);
+  }
+
+  bool searchExactly() {
+    const PatchTree tree(source_, {options_.allowed, options_.sourceWeight, windowed_});
+    const float norm = target_.largestNorm(tree.center());
+    return forTiles("matching", 0, 1, [&](const Vec3i& first, const Vec3i& last, float* gathered) {
+      float projection[PatchTree::kWide];
+      for (int k = first.z; k < last.z; ++k)
+        for (int j = first.y; j < last.y; ++j)
+          for (int i = first.x; i < last.x; ++i) {
+            const Vec3i patch{i, j, k};
+            const std::uint32_t index = target_.index(patchPosition(patch));
+            target_.gather(index, gathered);
+            tree.project(target_, index, projection);
+            const Window limits = window(patch);
+            Candidate best = kNothing;
+            // The neighbours' matches, moved along, are first upper bounds.
+            for (int axis = 0; axis < 3; ++axis) {
+              Vec3i before = patch;
+              if (--before[axis] < first[axis]) continue;
+              Vec3i p = source_.position(best_[before].index);
+              p[axis] += options_.stride[axis];
+              offer(gathered, p, limits, best);
+            }
+            offerStart(gathered, patch, limits, best);
+            best = tree.nearest(gathered, projection, norm, best, windowed_ ? &limits : nullptr);
+            // A window without an allowed position does not count.
+            if (best.index == kNone) best = tree.nearest(gathered, projection, norm, best, nullptr);
+            best_[patch] = best;
+          }
     });
   }
 
-  bool inPlaces(const Vec3i& p) const {
-    return p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < places_.x && p.y < places_.y &&
-           p.z < places_.z;
-  }
-
-  std::size_t sourceIndex(const Vec3i& p) const {
-    return (static_cast<std::size_t>(p.z) * size_.y + p.y) * size_.x + p.x;
-  }
-
-  Reach reach(std::size_t q) const {
-    const Vec3i at = scaled(field_.position.ijk(q), options_.stride);
-    Reach r{{0, 0, 0}, places_ - Vec3i{1, 1, 1}};
-    for (int axis = 0; axis < 3; ++axis) {
-      if (options_.window[axis] < 0) continue;
-      const int span = targetPlaces_[axis] - 1;
-      const int middle =
-          span == 0 ? 0
-                    : static_cast<int>((std::int64_t{2} * at[axis] * (places_[axis] - 1) + span) /
-                                       (2 * std::int64_t{span}));
-      r.low[axis] = std::max(0, middle - options_.window[axis]);
-      r.high[axis] = std::min(places_[axis] - 1, middle + options_.window[axis]);
+  // Barnes, Shechtman, Finkelstein, Goldman: "PatchMatch", SIGGRAPH 2009,
+  // doi:10.1145/1531326.1531330. Within a tile propagation is sequential as there; from other tiles
+  // it takes the previous round's matches, so that tiles are independent and the threads do not
+  // matter.
+  bool searchByCoherence() {
+    const Random random(options_.seed, 0x706d);
+    const Vec3i positions = source_.positions();
+    const int widest = std::max({positions.x, positions.y, positions.z});
+    const auto cell = [&](const Vec3i& patch) {
+      return static_cast<std::uint64_t>(best_.index(patch));
+    };
+    bool going =
+        forTiles("matching", 0, 0.1, [&](const Vec3i& first, const Vec3i& last, float* gathered) {
+          for (int k = first.z; k < last.z; ++k)
+            for (int j = first.y; j < last.y; ++j)
+              for (int i = first.x; i < last.x; ++i) {
+                const Vec3i patch{i, j, k};
+                target_.gather(target_.index(patchPosition(patch)), gathered);
+                const Window limits = window(patch);
+                Candidate best = kNothing;
+                offerStart(gathered, patch, limits, best);
+                for (std::uint32_t draw = 0; best.index == kNone && draw < 64; ++draw)
+                  offer(gathered, randomPosition(random, cell(patch), 3 * draw, limits), limits,
+                        best);
+                if (best.index == kNone) best = fallback(gathered, limits);
+                best_[patch] = best;
+              }
+        });
+    for (int round = 0; going && round < options_.iterations; ++round) {
+      const Array3D<Candidate> previous = best_;
+      const int direction = round % 2 == 0 ? 1 : -1;
+      const double from = 0.1 + 0.9 * round / options_.iterations;
+      going = forTiles(
+          "matching", from, from + 0.9 / options_.iterations,
+          [&](const Vec3i& first, const Vec3i& last, float* gathered) {
+            const Vec3i size = last - first;
+            for (int n = 0; n < size.x * size.y * size.z; ++n) {
+              Vec3i patch{n % size.x, n / size.x % size.y, n / size.x / size.y};
+              patch = direction > 0 ? first + patch : last - Vec3i{1, 1, 1} - patch;
+              target_.gather(target_.index(patchPosition(patch)), gathered);
+              const Window limits = window(patch);
+              Candidate best = best_[patch];
+              for (int axis = 0; axis < 3; ++axis)
+                for (int side : {-1, 1}) {
+                  Vec3i neighbor = patch;
+                  neighbor[axis] += side;
+                  if (!best_.contains(neighbor)) continue;
+                  const bool inTile = neighbor[axis] >= first[axis] && neighbor[axis] < last[axis];
+                  // Those of this tile that come later have the previous round's match still.
+                  Vec3i p =
+                      source_.position(inTile ? best_[neighbor].index : previous[neighbor].index);
+                  p[axis] -= side * options_.stride[axis];
+                  offer(gathered, p, limits, best);
+                }
+              std::uint32_t draw = 1000 * static_cast<std::uint32_t>(round + 1);
+              for (int radius = widest; radius >= 1; radius /= 2, draw += 3) {
+                const Vec3i around = source_.position(best.index);
+                Window near{max(limits.first, around - Vec3i{radius, radius, radius}),
+                            min(limits.last, around + Vec3i{radius, radius, radius})};
+                // A match outside the window (there was none inside) has no neighbourhood in it.
+                if (min(near.first, near.last) != near.first) break;
+                offer(gathered, uniform(random, cell(patch), draw, near), limits, best);
+              }
+              best_[patch] = best;
+            }
+          });
     }
-    return r;
+    return going;
   }
 
-  void pack(std::size_t q, PackedPatch& packed) const {
-    const Vec3i at = scaled(field_.position.ijk(q), options_.stride);
-    packed.samples.assign(shape_.packedSlice() * shape_.patch.z * target_.size(), 0.0f);
-    float* to = packed.samples.data();
-    for (const Array3D<float>& channel : target_) {
-      for (int k = 0; k < shape_.patch.z; ++k) {
-        for (int j = 0; j < shape_.patch.y; ++j, to += shape_.chunks * kLanes) {
-          std::copy_n(&channel(at.x, at.y + j, at.z + k), shape_.patch.x, to);
-        }
-      }
-    }
-  }
-
-  /// Considers source position `p` for patch `q`: takes it when it costs less, or as little at a
-  /// lower index.
-  void consider(std::size_t q, const Vec3i& p, const PackedPatch& packed) {
-    const float weight = options_.sourceWeight ? (*options_.sourceWeight)[p] : 1.0f;
-    const float bound = cost_.values()[q] / (weight * scale_);
-    const float* samples = packed.samples.data();
-    const std::ptrdiff_t row = size_.x, slice = row * size_.y;
-    float sum = 0;
-    for (const std::vector<float>& channel : source_) {
-      const float* from = channel.data() + sourceIndex(p);
-      for (int k = 0; k < shape_.patch.z; ++k, from += slice, samples += shape_.packedSlice()) {
-        sum +=
-            sliceDistance(samples, from, row, shape_.patch.y, shape_.chunks, shape_.known.data());
-        if (sum > bound * 1.0001f) return;
-      }
-    }
-    const float cost = sum * scale_ * weight;
-    const bool tie =
-        cost == cost_.values()[q] && sourceIndex(p) < sourceIndex(field_.position.values()[q]);
-    if (cost < cost_.values()[q] || tie) {
-      cost_.values()[q] = cost;
-      field_.position.values()[q] = p;
-      field_.distance.values()[q] = sum * scale_;
-    }
-  }
-
-  bool isAllowed(const Vec3i& p) const { return !options_.allowed || (*options_.allowed)[p] != 0; }
-
-  /// The start's position for patch `q`, where it has a usable one.
-  void considerStart(std::size_t q, const Reach& r, const PackedPatch& packed) {
-    if (!options_.start || !(options_.start->position.size() == field_.position.size())) return;
-    const Vec3i p = options_.start->position.values()[q];
-    if (r.contains(p) && isAllowed(p)) consider(q, p, packed);
-  }
-
-  void searchAll(std::size_t q, PackedPatch& packed) {
-    const Reach r = reach(q);
-    pack(q, packed);
-    considerStart(q, r, packed);
-    if (options_.allowed) {
-      for (const Vec3i& p : allowedList_) {
-        if (r.contains(p)) consider(q, p, packed);
-      }
-      return;
-    }
-    for (int k = r.low.z; k <= r.high.z; ++k)
-      for (int j = r.low.y; j <= r.high.y; ++j)
-        for (int i = r.low.x; i <= r.high.x; ++i) consider(q, {i, j, k}, packed);
-  }
-
-  Vec3i randomPlace(const Reach& r, const Vec3i& middle, const Vec3i& radius, std::uint64_t key,
-                    std::uint32_t draw) const {
-    const Random random(options_.seed, kSearchStream);
+  static Vec3i uniform(const Random& random, std::uint64_t cell, std::uint32_t draw,
+                       const Window& window) {
     Vec3i p;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int low = std::max(r.low[axis], middle[axis] - radius[axis]);
-      const int high = std::min(r.high[axis], middle[axis] + radius[axis]);
-      p[axis] = low >= high
-                    ? std::clamp(middle[axis], r.low[axis], r.high[axis])
-                    : low + static_cast<int>(random.below(high - low + 1, key, 3 * draw + axis));
-    }
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = window.first[axis] +
+                static_cast<int>(random.below(
+                    static_cast<std::uint32_t>(window.last[axis] - window.first[axis] + 1), cell,
+                    draw + static_cast<std::uint32_t>(axis)));
     return p;
   }
 
-  void begin(std::size_t q, PackedPatch& packed) {
-    const Reach r = reach(q);
-    pack(q, packed);
-    considerStart(q, r, packed);
-    if (cost_.values()[q] < kInfinite) return;
-    if (options_.allowed) {
-      const Random random(options_.seed, kSearchStream);
-      const auto n = static_cast<std::uint32_t>(allowedList_.size());
-      consider(q, allowedList_[random.below(n, q, 0)], packed);
-      return;
-    }
-    consider(q, randomPlace(r, r.low, places_, q, 0), packed);
+  Vec3i randomPosition(const Random& random, std::uint64_t cell, std::uint32_t draw,
+                       const Window& limits) const {
+    if (!options_.allowed || windowed_) return uniform(random, cell, draw, limits);
+    return source_.position(
+        allowed_[random.below(static_cast<std::uint32_t>(allowed_.size()), cell, draw)]);
   }
 
-  void improve(std::size_t q, int iteration, PackedPatch& packed) {
-    static constexpr std::array<int, 4> kJumps{3, 5, 9, 17};
-    const Reach r = reach(q);
-    pack(q, packed);
-    const Vec3i at = field_.position.ijk(q);
-    for (const int jump : {1, kJumps[iteration % kJumps.size()]}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const int step : {-jump, jump}) {
-          Vec3i neighbor = at;
-          neighbor[axis] += step;
-          if (!field_.position.contains(neighbor)) continue;
-          Vec3i p = field_.position[neighbor];
-          p[axis] -= step * options_.stride[axis];
-          if (r.contains(p) && p != field_.position.values()[q] && isAllowed(p)) {
-            consider(q, p, packed);
-          }
-        }
-      }
+  // For windows with few allowed positions or none: the first one, or the first of all.
+  Candidate fallback(const float* gathered, const Window& limits) const {
+    Candidate best = kNothing;
+    for (std::uint32_t index : allowed_) {
+      offer(gathered, source_.position(index), limits, best);
+      if (best.index != kNone) return best;
     }
-    Vec3i radius = places_;
-    for (std::uint32_t draw = 1; std::max({radius.x, radius.y, radius.z}) >= 1; ++draw) {
-      const Vec3i p =
-          randomPlace(r, field_.position.values()[q], radius,
-                      q + field_.position.count() * (iteration + std::uint64_t{1}), draw);
-      if (p != field_.position.values()[q] && isAllowed(p)) consider(q, p, packed);
-      radius = Vec3i{radius.x / 2, radius.y / 2, radius.z / 2};
-    }
+    offer(gathered, source_.position(firstAllowed_),
+          {{0, 0, 0}, source_.positions() - Vec3i{1, 1, 1}}, best);
+    return best;
   }
 
   const NearestNeighborFieldOptions& options_;
-  const Channels& target_;
-  PatchShape shape_;
-  Vec3i size_, places_, targetPlaces_;
-  std::vector<std::vector<float>> source_;  ///< channels, padded for over-reading
-  std::vector<Vec3i> allowedList_;
-  float scale_ = 1;
-  NearestNeighborField field_;
-  Array3D<float> cost_;
+  const Progress& progress_;
+  PatchSet source_, target_;
+  Vec3i shape_{};
+  bool windowed_ = false;
+  std::uint32_t firstAllowed_ = kNone;
+  std::vector<std::uint32_t> allowed_;  // where a mask is given
+  Array3D<Candidate> best_;
 };
-
-void check(const Channels& source, const Channels& target,
-           const NearestNeighborFieldOptions& options) {
-  const auto fail = [](const std::string& what) {
-    throw InputError("nearest-neighbor field: " + what);
-  };
-  if (source.empty() || source.size() != target.size()) {
-    fail("source and target need the same number of channels, at least one");
-  }
-  for (const Array3D<float>& channel : source) {
-    if (channel.size() != source.front().size()) fail("the source's channels differ in size");
-  }
-  for (const Array3D<float>& channel : target) {
-    if (channel.size() != target.front().size()) fail("the target's channels differ in size");
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const int patch = options.patch[axis];
-    if (patch < 1 || patch > source.front().size()[axis] || patch > target.front().size()[axis]) {
-      fail("a patch of " + std::to_string(patch) + " samples does not fit");
-    }
-    if (options.stride[axis] < 1) fail("the stride must be at least 1");
-  }
-  if (options.iterations < 1) fail("iterations must be at least 1");
-  if (options.allowed && options.allowed->size() != source.front().size()) {
-    fail("`allowed` must be of the source's size");
-  }
-  if (options.sourceWeight && options.sourceWeight->size() != source.front().size()) {
-    fail("`sourceWeight` must be of the source's size");
-  }
-}
 
 }  // namespace
 
 NearestNeighborField nearestNeighborField(const Channels& source, const Channels& target,
                                           const NearestNeighborFieldOptions& options,
                                           const Progress& progress) {
-  check(source, target, options);
-  return Search(source, target, options).run(progress);
+  return Field(source, target, options, progress).run();
 }
 
 }  // namespace exemplar

@@ -1,0 +1,231 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "search/nearest_neighbor_field.h"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "fields.h"
+
+namespace exemplar {
+namespace {
+
+using Options = NearestNeighborFieldOptions;
+
+// Whole numbers: sums below 2^24 are exact in float, whatever their order, and ties are ties.
+Array3D<float> levels(const Array3D<std::uint8_t>& field) {
+  Array3D<float> result(field.size());
+  std::ranges::copy(field.values(), result.data());
+  return result;
+}
+
+double patchDistance(const Channels& source, const Vec3i& s, const Channels& target, const Vec3i& t,
+                     const Vec3i& patch) {
+  double sum = 0;
+  for (std::size_t c = 0; c < source.size(); ++c)
+    for (int k = 0; k < patch.z; ++k)
+      for (int j = 0; j < patch.y; ++j)
+        for (int i = 0; i < patch.x; ++i) {
+          const Vec3i o{i, j, k};
+          const double d = double(source[c][s + o]) - target[c][t + o];
+          sum += d * d;
+        }
+  return sum / double(volume(patch));
+}
+
+bool mayUse(const Options& options, const Vec3i& s, const Vec3i& t, const Vec3i& sourceLast,
+            const Vec3i& targetLast) {
+  if (options.allowed && !(*options.allowed)[s]) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (options.window[axis] < 0) continue;
+    const double center = targetLast[axis] == 0
+                              ? sourceLast[axis] / 2
+                              : std::round(double(t[axis]) * sourceLast[axis] / targetLast[axis]);
+    if (std::abs(s[axis] - center) > options.window[axis]) return false;
+  }
+  return true;
+}
+
+void expectExact(const Channels& source, const Channels& target, const Options& options,
+                 bool wholeNumbers) {
+  const auto field = nearestNeighborField(source, target, options);
+  ASSERT_TRUE(field.complete);
+  const Vec3i sourceLast = source[0].size() - options.patch;
+  const Vec3i targetLast = target[0].size() - options.patch;
+  for (std::size_t n = 0; n < field.position.count(); ++n) {
+    const Vec3i t = scaled(field.position.ijk(n), options.stride);
+    ASSERT_TRUE(max(t, Vec3i{}) == t && min(t, targetLast) == t);
+    Vec3i best{-1, -1, -1};
+    double cost = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= sourceLast.z; ++k)
+      for (int j = 0; j <= sourceLast.y; ++j)
+        for (int i = 0; i <= sourceLast.x; ++i) {
+          const Vec3i s{i, j, k};
+          if (!mayUse(options, s, t, sourceLast, targetLast)) continue;
+          const double w = options.sourceWeight ? (*options.sourceWeight)[s] : 1;
+          const double c = w * patchDistance(source, s, target, t, options.patch);
+          if (c < cost) {
+            cost = c;
+            best = s;
+          }
+        }
+    const Vec3i found = field.position.data()[n];
+    ASSERT_TRUE(mayUse(options, found, t, sourceLast, targetLast));
+    const double distance = patchDistance(source, found, target, t, options.patch);
+    EXPECT_NEAR(field.distance.data()[n], distance, 1e-5 * distance + 1e-12);
+    if (wholeNumbers) {
+      EXPECT_EQ(found, best) << n;
+    } else {
+      const double w = options.sourceWeight ? (*options.sourceWeight)[found] : 1;
+      EXPECT_LE(w * distance, cost * (1 + 1e-5));
+    }
+  }
+}
+
+TEST(NearestNeighborField, ExactFindsTheNearestPatch) {
+  for (std::uint64_t trial = 0; trial < 12; ++trial) {
+    const Random random(trial, 21);
+    const Vec3i patch{1 + int(random.below(9, 0)), 1 + int(random.below(6, 1)),
+                      1 + int(random.below(6, 2))};
+    const Vec3i stride{1 + int(random.below(3, 3)), 1 + int(random.below(3, 4)),
+                       1 + int(random.below(3, 5))};
+    const int values = trial % 3 == 0 ? 256 : trial % 3 == 1 ? 2 : 1;
+    const Channels source{levels(fields::noise(patch + Vec3i{9, 8, 7}, trial, values))};
+    const Channels target{levels(fields::noise(patch + Vec3i{6, 7, 8}, trial + 50, values))};
+    expectExact(source, target, {.patch = patch, .stride = stride}, true);
+  }
+}
+
+TEST(NearestNeighborField, ExactFindsTheNearestPatchOfSmoothFields) {
+  const auto a = fields::ballPacking(24, 5, 1), b = fields::ballPacking(24, 5, 2);
+  expectExact({a}, {b}, {.patch = {7, 7, 7}, .stride = {3, 3, 3}}, false);
+  expectExact({levels(fields::quantized(a, 4))}, {levels(fields::quantized(b, 4))},
+              {.patch = {5, 5, 5}, .stride = {4, 4, 4}}, true);
+  // An offset far from zero must not let rounding prune the nearest.
+  Array3D<float> far = a, farther = b;
+  for (float& v : far.values()) v += 1000;
+  for (float& v : farther.values()) v += 1001;
+  expectExact({far}, {farther}, {.patch = {5, 6, 4}, .stride = {4, 5, 4}}, false);
+}
+
+TEST(NearestNeighborField, ExactCountsAllChannels) {
+  const Channels source{levels(fields::noise({12, 11, 10}, 1, 20)),
+                        levels(fields::noise({12, 11, 10}, 2, 20))};
+  const Channels target{levels(fields::noise({10, 10, 10}, 3, 20)),
+                        levels(fields::noise({10, 10, 10}, 4, 20))};
+  expectExact(source, target, {.patch = {3, 4, 5}}, true);
+}
+
+TEST(NearestNeighborField, ExactHonoursMasksWeightsAndWindows) {
+  const Channels source{levels(fields::quantized(fields::terrain(20, 1), 4))};
+  const Channels target{levels(fields::quantized(fields::terrain(20, 2), 4))};
+  const auto allowed = fields::randomMask({20, 20, 20}, 0.4, 1);
+  Array3D<float> weight({20, 20, 20});
+  // Powers of two: costs stay exact.
+  for (std::size_t i = 0; i < weight.count(); ++i)
+    weight.data()[i] = std::exp2(float(Random(5).below(5, i)) - 2);
+  const Vec3i patch{4, 5, 6}, stride{3, 3, 3};
+  expectExact(source, target, {.patch = patch, .stride = stride, .allowed = &allowed}, true);
+  expectExact(source, target, {.patch = patch, .stride = stride, .sourceWeight = &weight}, true);
+  expectExact(source, target, {.patch = patch, .stride = stride, .window = {-1, 4, 0}}, true);
+  expectExact(source, target,
+              {.patch = patch,
+               .stride = stride,
+               .allowed = &allowed,
+               .sourceWeight = &weight,
+               .window = {9, -1, 3}},
+              true);
+}
+
+TEST(NearestNeighborField, AWindowWithoutAnAllowedPositionDoesNotCount) {
+  const Channels source{levels(fields::noise({12, 12, 12}, 1))};
+  Array3D<std::uint8_t> allowed({12, 12, 12}, 0);
+  allowed(8, 0, 0) = 1;
+  for (auto method : {NeighborMethod::Exact, NeighborMethod::PatchMatch}) {
+    const auto field = nearestNeighborField(
+        source, source,
+        {.patch = {4, 4, 4}, .method = method, .allowed = &allowed, .window = {1, 1, 1}});
+    for (const Vec3i& p : field.position.values()) EXPECT_EQ(p, (Vec3i{8, 0, 0}));
+  }
+}
+
+TEST(NearestNeighborField, TheSourceMatchesItself) {
+  const Channels source{fields::ballPacking(20, 4, 1)};
+  const auto field = nearestNeighborField(source, source, {.patch = {5, 5, 5}});
+  for (std::size_t i = 0; i < field.position.count(); ++i) {
+    EXPECT_EQ(field.distance.data()[i], 0);
+  }
+}
+
+TEST(NearestNeighborField, PatchMatchIsNearlyAsNear) {
+  const Channels source{fields::ballPacking(32, 5, 1)}, target{fields::ballPacking(32, 5, 2)};
+  const Options options{.patch = {7, 7, 7}, .stride = {2, 2, 2}};
+  Options approximate = options;
+  approximate.method = NeighborMethod::PatchMatch;
+  const auto exact = nearestNeighborField(source, target, options);
+  const auto near = nearestNeighborField(source, target, approximate);
+  approximate.iterations = 1;
+  const auto once = nearestNeighborField(source, target, approximate);
+  double exactSum = 0, nearSum = 0, onceSum = 0;
+  for (std::size_t i = 0; i < exact.distance.count(); ++i) {
+    EXPECT_GE(near.distance.data()[i], exact.distance.data()[i]);
+    exactSum += exact.distance.data()[i];
+    nearSum += near.distance.data()[i];
+    onceSum += once.distance.data()[i];
+  }
+  EXPECT_LT(nearSum, 1.6 * exactSum);
+  EXPECT_LT(nearSum, onceSum);
+  // Started from the answer it stays there.
+  approximate.start = &exact;
+  EXPECT_EQ(nearestNeighborField(source, target, approximate).distance, exact.distance);
+}
+
+TEST(NearestNeighborField, IsTheSameAtOneAndEightThreads) {
+  const Channels source{fields::terrain(30, 1)}, target{fields::terrain(30, 2)};
+  tbb::task_arena one(1), eight(8);
+  for (auto method : {NeighborMethod::Exact, NeighborMethod::PatchMatch}) {
+    const auto make = [&] {
+      return nearestNeighborField(
+          source, target, {.patch = {6, 6, 6}, .method = method, .iterations = 2, .seed = 4});
+    };
+    const auto a = one.execute(make), b = eight.execute(make);
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.distance, b.distance);
+  }
+}
+
+TEST(NearestNeighborField, StopsWhenCancelled) {
+  const Channels source{fields::terrain(30, 1)};
+  std::atomic<bool> cancel = true;
+  for (auto method : {NeighborMethod::Exact, NeighborMethod::PatchMatch}) {
+    const auto field =
+        nearestNeighborField(source, source, {.method = method}, Progress({}, &cancel));
+    EXPECT_FALSE(field.complete);
+    EXPECT_EQ(field.position.size(), (Vec3i{24, 24, 24}));
+  }
+}
+
+TEST(NearestNeighborField, RefusesOptionsOutOfRange) {
+  const Channels a{Array3D<float>({9, 9, 9})}, two{a[0], a[0]},
+      uneven{a[0], Array3D<float>({9, 9, 8})};
+  const Array3D<std::uint8_t> none({9, 9, 9}, 0), small({3, 3, 3}, 1);
+  const Array3D<float> zero({9, 9, 9}, 0);
+  EXPECT_THROW(nearestNeighborField(a, two), InputError);
+  EXPECT_THROW(nearestNeighborField(uneven, uneven), InputError);
+  EXPECT_THROW(nearestNeighborField({}, {}), InputError);
+  EXPECT_THROW(nearestNeighborField(a, a, {.patch = {10, 7, 7}}), InputError);
+  EXPECT_THROW(nearestNeighborField(a, a, {.stride = {0, 1, 1}}), InputError);
+  EXPECT_THROW(nearestNeighborField(a, a, {.iterations = 0}), InputError);
+  EXPECT_THROW(nearestNeighborField(a, a, {.allowed = &none}), InputError);
+  EXPECT_THROW(nearestNeighborField(a, a, {.allowed = &small}), InputError);
+  EXPECT_THROW(nearestNeighborField(a, a, {.sourceWeight = &zero}), InputError);
+}
+
+}  // namespace
+}  // namespace exemplar
