@@ -1,0 +1,144 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "measure/figures.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+
+namespace exemplar {
+namespace {
+
+class List {
+ public:
+  std::vector<Figure> figures;
+
+  void group(std::string name) { group_ = std::move(name); }
+  template <class T>
+  void add(const char* key, const T& value, const char* meaning) {
+    figures.push_back({group_, key, value, meaning});
+  }
+  template <class T>
+  void add(const char* key, const std::optional<T>& value, const char* meaning) {
+    if (value) {
+      add(key, *value, meaning);
+    } else {
+      add(key, std::monostate{}, meaning);
+    }
+  }
+
+ private:
+  std::string group_;
+};
+
+void addLikeness(List& list, const Likeness& l) {
+  const auto share = [](const std::optional<PatchLikeness>& p) {
+    return p ? std::optional(p->share) : std::nullopt;
+  };
+  list.group("likeness");
+  list.add("lp_dense", l.dense.share, "of the result's windows, as in the example; 1 is best");
+  list.add("coverage", l.coverage.share, "of the example's windows, as in the result; 1 is best");
+  list.add("lp_dense_interior", share(l.denseInterior), "the same, wholly inside the box");
+  list.add("coverage_interior", share(l.coverageInterior), "the same, wholly inside the box");
+  list.add("lp_dense_mean_iou", l.dense.meanIou, "mean of the windows' best matches");
+  list.add("coverage_mean_iou", l.coverage.meanIou, "mean of the windows' best matches");
+  list.add("lp_published", l.published.share, "at stride 5: to compare with published work only");
+  list.add("fpd", l.patches ? std::optional(l.patches->distance) : std::nullopt,
+           "distance of the patches' distributions, voxels²; its floor is best");
+  list.add("fpd_floor", l.patches ? std::optional(l.patches->floor) : std::nullopt,
+           "of the example against itself");
+  list.add("occupancy_ratio", l.occupancyRatio, "solid share over the example's; 1 is best");
+  list.add("surface_ratio", l.surfaceRatio, "surface density over the example's; 1 is best");
+  list.add("pieces_per_million_cells", l.pieces.resultPerMillion, "whole pieces in the result");
+  list.add("pieces_per_million_cells_example", l.pieces.examplePerMillion,
+           "whole pieces in the example");
+  list.add("broken_share", l.pieces.brokenShare,
+           "solid in pieces under half of the example's smallest; 0 is best");
+  list.add("windows", l.dense.windows, "windows drawn for lp_dense");
+}
+
+void addNovelty(List& list, const Novelty& n) {
+  list.group("novelty");
+  list.add("distance_to_example", n.distance, "1 - IoU, cell by cell; 0 is a copy");
+  list.add("distance_to_shifted_example", n.copyDistance, "1 - IoU, best placed; 0 is a copy");
+  list.add("verbatim_run", n.verbatimRun, "mean size of copied regions, in examples; 1 is a copy");
+  list.add("use", n.use, "evenness of the use of the example's surface; 1 is even");
+  list.add("used_share", n.usedShare, "share of the example's surface in use");
+}
+
+void addSeams(List& list, const Seams& s) {
+  list.group("seams");
+  list.add("seam_jump", s.jump, "mean jump where the source changes, voxels; 0 is best");
+  list.add("seam_jump_ratio", s.jumpRatio, "over the example's own second difference");
+  list.add("seam_jump_near_surface", s.nearJump, "within 3 voxels of the surface, voxels");
+  list.add("seam_jump_ratio_near_surface", s.nearJumpRatio, "over the example's, near its surface");
+  list.add("seam_share", s.seamShare, "of the cell faces, where the source changes");
+  list.add("eikonal_residual", s.eikonalResidual, "mean | |grad| - 1 | near the surface");
+  list.add("eikonal_residual_example", s.exampleEikonalResidual, "the same in the example");
+}
+
+void addMesh(List& list, const MeshHealth& m) {
+  list.group("mesh");
+  list.add("closed", m.closed(), "no open edge");
+  list.add("manifold", m.manifold(), "a surface around each edge and vertex");
+  list.add("oriented", m.oriented(), "all triangles wind the same way");
+  list.add("vertices", m.vertices, "");
+  list.add("triangles", m.triangles, "");
+  list.add("components", m.components, "connected by shared vertices");
+  list.add("boundary_edges", m.boundaryEdges, "");
+  list.add("non_manifold_edges", m.nonManifoldEdges, "");
+  list.add("non_manifold_vertices", m.nonManifoldVertices, "");
+  list.add("misoriented_edges", m.misorientedEdges, "");
+  list.add("self_intersections", m.selfIntersections, "crossing pairs of triangles");
+  list.add("degenerate_triangles", m.degenerateTriangles, "without area");
+}
+
+std::string text(const Figure& figure) {
+  char number[64];
+  if (const auto* b = std::get_if<bool>(&figure.value)) return *b ? "yes" : "no";
+  if (const auto* i = std::get_if<std::int64_t>(&figure.value)) return std::to_string(*i);
+  if (const auto* s = std::get_if<std::string>(&figure.value)) return *s;
+  if (const auto* d = std::get_if<double>(&figure.value)) {
+    std::snprintf(number, sizeof number, *d != 0 && *d < 0.001 && *d > -0.001 ? "%.2e" : "%.4g",
+                  *d);
+    return number;
+  }
+  return "-";
+}
+
+}  // namespace
+
+std::vector<Figure> figures(const Measures& measures) {
+  List list;
+  addLikeness(list, measures.likeness);
+  addNovelty(list, measures.novelty);
+  addSeams(list, measures.seams);
+  if (measures.mesh) addMesh(list, *measures.mesh);
+  list.group("collapse");
+  list.add("kind", collapseName(measures.collapse), "none, all_empty, all_solid or repeated");
+  return std::move(list.figures);
+}
+
+std::string figuresTable(const std::vector<Figure>& figures) {
+  std::size_t keys = 0, values = 0;
+  for (const Figure& f : figures) {
+    keys = std::max(keys, f.key.size());
+    values = std::max(values, text(f).size());
+  }
+  std::string table;
+  const std::string* group = nullptr;
+  for (const Figure& f : figures) {
+    if (!group || *group != f.group) table += (group ? "\n" : "") + f.group + "\n";
+    group = &f.group;
+    const std::string value = text(f);
+    std::string line = "  " + f.key + std::string(keys - f.key.size() + 2, ' ') +
+                       std::string(values - value.size(), ' ') + value;
+    if (!f.meaning.empty()) line += "  " + f.meaning;
+    table += line + "\n";
+  }
+  return table;
+}
+
+}  // namespace exemplar

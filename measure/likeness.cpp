@@ -1,0 +1,51 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "measure/likeness.h"
+
+#include "measure/occupancy.h"
+#include "measure/same_voxels.h"
+
+namespace exemplar {
+
+Likeness measureLikeness(const DistanceField& example, const DistanceField& result,
+                         const LikenessOptions& options) {
+  requireSameVoxels(example, result);
+  const Occupancy e(example), r(result);
+  const auto patches = [&](const Occupancy& asked, const Occupancy& reference, int stride,
+                           WindowBorder border) {
+    PatchLikenessOptions o;
+    o.border = border;
+    o.referenceStride = stride;
+    o.threshold = options.threshold;
+    o.windows = options.windows;
+    o.averaged = border == WindowBorder::Padded && stride == 1 ? o.averaged : 0;
+    o.seed = options.seed;
+    return patchLikeness(asked, reference, o);
+  };
+
+  Likeness likeness;
+  likeness.published = patches(r, e, 5, WindowBorder::Padded);
+  likeness.dense = patches(r, e, 1, WindowBorder::Padded);
+  likeness.coverage = patches(e, r, 1, WindowBorder::Padded);
+  if (hasInteriorWindows(e.size()) && hasInteriorWindows(r.size())) {
+    likeness.denseInterior = patches(r, e, 1, WindowBorder::Interior);
+    likeness.coverageInterior = patches(e, r, 1, WindowBorder::Interior);
+  }
+  PatchDistanceOptions distance;
+  distance.seed = options.seed;
+  likeness.patches = patchDistance(example, result, distance);
+
+  likeness.exampleOccupancy = solidFraction(e);
+  likeness.resultOccupancy = solidFraction(r);
+  likeness.exampleSurface = surfaceDensity(e);
+  likeness.resultSurface = surfaceDensity(r);
+  if (likeness.exampleOccupancy > 0)
+    likeness.occupancyRatio = likeness.resultOccupancy / likeness.exampleOccupancy;
+  if (likeness.exampleSurface > 0)
+    likeness.surfaceRatio = likeness.resultSurface / likeness.exampleSurface;
+  likeness.pieces = comparePieces(e, r);
+  return likeness;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,150 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "measure/occupancy.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "core/simd.h"
+
+namespace exemplar {
+namespace {
+
+/// `count` low bits set; 0..64.
+constexpr std::uint64_t lowBits(int count) {
+  return count >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+}
+
+struct Counts {
+  std::int64_t both = 0, either = 0;
+  Counts& operator+=(const Counts& o) {
+    both += o.both;
+    either += o.either;
+    return *this;
+  }
+};
+
+/// Solid cells of the overlap in both, and in either, of rows z0..z1 of `a`.
+EXEMPLAR_MULTIVERSION
+Counts countOverlap(const Occupancy& a, const Occupancy& b, const Vec3i& shift, const Vec3i& low,
+                    const Vec3i& high, int z0, int z1) {
+  Counts counts;
+  for (int z = z0; z < z1; ++z)
+    for (int y = low.y; y < high.y; ++y)
+      for (int x = low.x; x < high.x; x += 64) {
+        const std::uint64_t mask = lowBits(high.x - x);
+        const std::uint64_t p = a.bits(x, y, z) & mask;
+        const std::uint64_t q = b.bits(x - shift.x, y - shift.y, z - shift.z) & mask;
+        counts.both += std::popcount(p & q);
+        counts.either += std::popcount(p | q);
+      }
+  return counts;
+}
+
+Counts overlap(const Occupancy& a, const Occupancy& b, const Vec3i& shift) {
+  const Vec3i low = max(Vec3i{0, 0, 0}, shift), high = min(a.size(), b.size() + shift);
+  if (low.x >= high.x || low.y >= high.y || low.z >= high.z) return {};
+  return parallelSum<Counts>(low.z, high.z, 16, [&](std::size_t z0, std::size_t z1) {
+    return countOverlap(a, b, shift, low, high, static_cast<int>(z0), static_cast<int>(z1));
+  });
+}
+
+/// Pairs of neighbours along `d`, one solid and one empty, whose first cell has z in z0..z1.
+EXEMPLAR_MULTIVERSION
+std::int64_t countChanges(const Occupancy& o, const Vec3i& d, int z0, int z1) {
+  const Vec3i n = o.size();
+  const int xBegin = std::max(0, -d.x), xEnd = n.x - std::max(0, d.x);
+  const int yBegin = std::max(0, -d.y), yEnd = n.y - std::max(0, d.y);
+  std::int64_t changes = 0;
+  for (int z = z0; z < z1; ++z)
+    for (int y = yBegin; y < yEnd; ++y)
+      for (int x = xBegin; x < xEnd; x += 64)
+        changes += std::popcount((o.bits(x, y, z) ^ o.bits(x + d.x, y + d.y, z + d.z)) &
+                                 lowBits(xEnd - x));
+  return changes;
+}
+
+/// A direction of the 3³ neighbourhood and the share of all directions that are nearest to it.
+struct Direction {
+  Vec3i step;
+  double weight;
+};
+
+constexpr double kAxis = 0.0915557824, kFace = 0.0739612558, kCorner = 0.0703912794;
+constexpr std::array<Direction, 13> kDirections{{{{1, 0, 0}, kAxis},
+                                                 {{0, 1, 0}, kAxis},
+                                                 {{0, 0, 1}, kAxis},
+                                                 {{1, 1, 0}, kFace},
+                                                 {{-1, 1, 0}, kFace},
+                                                 {{1, 0, 1}, kFace},
+                                                 {{-1, 0, 1}, kFace},
+                                                 {{0, 1, 1}, kFace},
+                                                 {{0, -1, 1}, kFace},
+                                                 {{1, 1, 1}, kCorner},
+                                                 {{-1, 1, 1}, kCorner},
+                                                 {{1, -1, 1}, kCorner},
+                                                 {{-1, -1, 1}, kCorner}}};
+
+}  // namespace
+
+Occupancy::Occupancy(const DistanceField& field) : size_(field.size()) {
+  if (field.values.empty()) return;
+  // A word before, one for bits() to reach into, and one that a window's 64 cells may start in.
+  wordsPerRow_ = static_cast<std::size_t>((size_.x + 63) / 64) + 3;
+  const std::size_t rows = static_cast<std::size_t>(size_.y + 2 * kMargin) *
+                           static_cast<std::size_t>(size_.z + 2 * kMargin);
+  words_.resize(rows * wordsPerRow_);
+  solidCells_ = parallelSum<std::int64_t>(0, size_.z, 8, [&](std::size_t z0, std::size_t z1) {
+    std::int64_t solid = 0;
+    for (int z = static_cast<int>(z0); z < static_cast<int>(z1); ++z)
+      for (int y = 0; y < size_.y; ++y) {
+        std::uint64_t* words = words_.data() + (row(y, z) - words_.data()) + 1;
+        const float* values = &field.values(0, y, z);
+        for (int x = 0; x < size_.x; ++x) {
+          const std::uint64_t bit = values[x] < 0 ? 1 : 0;
+          words[x >> 6] |= bit << (x & 63);
+          solid += static_cast<std::int64_t>(bit);
+        }
+      }
+    return solid;
+  });
+}
+
+double solidFraction(const Occupancy& occupancy) {
+  return occupancy.cells() == 0 ? 0
+                                : static_cast<double>(occupancy.solidCells()) / occupancy.cells();
+}
+
+double surfaceDensity(const Occupancy& occupancy) {
+  double density = 0, weights = 0;
+  for (const auto& [step, weight] : kDirections) {
+    const Vec3i pairs = occupancy.size() - Vec3i{std::abs(step.x), std::abs(step.y), step.z};
+    if (pairs.x <= 0 || pairs.y <= 0 || pairs.z <= 0) continue;  // a volume one cell thin
+    const auto changes =
+        parallelSum<std::int64_t>(0, pairs.z, 16, [&](std::size_t z0, std::size_t z1) {
+          return countChanges(occupancy, step, static_cast<int>(z0), static_cast<int>(z1));
+        });
+    const double runs = static_cast<double>(volume(pairs)) * length(cast<double>(step));
+    density += 2 * weight * static_cast<double>(changes) / runs;
+    weights += weight;
+  }
+  return weights == 0 ? 0 : density / weights;
+}
+
+double intersectionOverUnion(const Occupancy& a, const Occupancy& b) {
+  assert(a.size() == b.size());
+  const Counts counts = overlap(a, b, {0, 0, 0});
+  return counts.either == 0 ? 1 : static_cast<double>(counts.both) / counts.either;
+}
+
+double intersectionOverUnion(const Occupancy& a, const Occupancy& b, const Vec3i& shift) {
+  const Counts counts = overlap(a, b, shift);
+  return counts.either == 0 ? 0 : static_cast<double>(counts.both) / counts.either;
+}
+
+}  // namespace exemplar
