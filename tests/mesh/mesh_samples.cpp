@@ -1,0 +1,143 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "mesh_samples.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "mesh/color.h"
+
+namespace exemplar {
+
+long TestFolder::getProcessId() { return ::getpid(); }
+
+std::string fromHex(std::string_view digits) {
+  std::string bytes;
+  const auto value = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
+    bytes += static_cast<char>(16 * value(digits[i]) + value(digits[i + 1]));
+  }
+  return bytes;
+}
+
+const std::string& tinyPng() {
+  static const std::string bytes = fromHex(
+      "89504e470d0a1a0a0000000d4948445200000001000000010802000000907753de0000000c49444154789c63"
+      "f8cfc0000003010100c9fe92ef0000000049454e44ae426082");
+  return bytes;
+}
+
+const std::string& tinyJpeg() {
+  static const std::string bytes = fromHex(
+      "ffd8ffe000104a46494600010100000100010000ffdb004300100b0c0e0c0a100e0d0e1211101318281a1816"
+      "16183123251d283a333d3c3933383740485c4e404457453738506d51575f626768673e4d71797064785c6567"
+      "63ffc0000b080008000801011100ffc40014000100000000000000000000000000000006ffc4001410010000"
+      "0000000000000000000000000000ffda0008010100003f0048ffd9");
+  return bytes;
+}
+
+TriangleMesh fullMesh() {
+  TriangleMesh mesh;
+  for (int v = 0; v < 8; ++v) {
+    mesh.positions.push_back({v % 2 * 2.0, v / 2 % 2 * 3.0 - 0.5, v / 4 * 1.25});
+    mesh.colors.push_back({srgb8ToLinear(static_cast<std::uint8_t>(30 * v)),
+                           srgb8ToLinear(static_cast<std::uint8_t>(255 - 30 * v)), srgb8ToLinear(7),
+                           v == 3 ? 128.0f / 255 : 1.0f});
+  }
+  const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (int q = 0; q < 6; ++q) {
+    const auto [a, b, c, d] = std::array<std::uint32_t, 4>{
+        static_cast<std::uint32_t>(quads[q][0]), static_cast<std::uint32_t>(quads[q][1]),
+        static_cast<std::uint32_t>(quads[q][2]), static_cast<std::uint32_t>(quads[q][3])};
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+    // Each face has a cell of its own in the picture; multiples of 1/8 survive 1 - v exactly.
+    const float u = static_cast<float>(q % 3) / 4, v = static_cast<float>(q / 3) / 2;
+    const Vec2f uv[4] = {{u, v}, {u + 0.25f, v}, {u + 0.25f, v + 0.5f}, {u, v + 0.5f}};
+    mesh.uvs.push_back({uv[0], uv[1], uv[2]});
+    mesh.uvs.push_back({uv[0], uv[2], uv[3]});
+    const std::uint32_t material = q < 2 ? 0 : 1;
+    mesh.triangleMaterials.insert(mesh.triangleMaterials.end(), 2, material);
+  }
+  mesh.textures = {{"brick wall.png", "image/png", tinyPng()}};
+  mesh.materials = {{.name = "red paint",
+                     .baseColor = {0.7f, 0.1f, 0.05f, 0.5f},
+                     .metallic = 0.0f,
+                     .roughness = 0.3f,
+                     .emission = {0.0f, 2.5f, 0.1f}},
+                    {.name = "brick",
+                     .baseColor = {1, 1, 1, 1},
+                     .metallic = 0.25f,
+                     .roughness = 0.9f,
+                     .baseColorTexture = 0}};
+  return mesh;
+}
+
+TriangleMesh plainTorus(int ring, int tube) {
+  TriangleMesh mesh;
+  constexpr double kTurn = 2 * std::numbers::pi;
+  for (int i = 0; i < ring; ++i) {
+    for (int j = 0; j < tube; ++j) {
+      const double a = kTurn * i / ring, b = kTurn * j / tube;
+      const double r = 2 + 0.7 * std::cos(b);
+      mesh.positions.push_back({r * std::cos(a), r * std::sin(a), 0.7 * std::sin(b)});
+    }
+  }
+  const auto at = [&](int i, int j) {
+    return static_cast<std::uint32_t>(i % ring * tube + j % tube);
+  };
+  for (int i = 0; i < ring; ++i) {
+    for (int j = 0; j < tube; ++j) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh parse(const std::string& ending, std::string_view bytes, bool withSiblings) {
+  const SiblingFile sibling = [&](const std::string& name) -> std::optional<std::string> {
+    if (!withSiblings) return std::nullopt;
+    if (name == "m.mtl") {
+      return "newmtl a\nKd 0.5 0.25 0.125\nd 0.5\nmap_Kd -s 1 1 1 t.png\n\nnewmtl b\nNs 250\nPm "
+             "1\n";
+    }
+    if (name == "t.png") return tinyPng();
+    return std::nullopt;
+  };
+  TriangleMesh mesh = ending == ".obj"   ? parseObj(bytes, "f.obj", sibling)
+                      : ending == ".ply" ? parsePly(bytes, "f.ply")
+                      : ending == ".stl" ? parseStl(bytes, "f.stl")
+                      : ending == ".off" ? parseOff(bytes, "f.off")
+                                         : parseGlb(bytes, "f.glb", sibling);
+  validate(mesh, "f" + ending);
+  return mesh;
+}
+
+std::string format(const std::string& ending, const TriangleMesh& mesh) {
+  return ending == ".obj"   ? formatObj(mesh, "f", false).obj
+         : ending == ".ply" ? formatPly(mesh, false)
+         : ending == ".stl" ? formatStl(mesh, false)
+         : ending == ".off" ? formatOff(mesh, false)
+                            : formatGlb(mesh, false);
+}
+
+std::string makeGlb(std::string json, std::string binary) {
+  while (json.size() % 4 != 0) json += ' ';
+  while (binary.size() % 4 != 0) binary += '\0';
+  const auto number = [](std::size_t n) {
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(n >> (8 * i) & 255);
+    return bytes;
+  };
+  std::string out = "glTF" + number(2) + number(12 + 8 + json.size() + 8 + binary.size());
+  out += number(json.size()) + "JSON" + json;
+  out += number(binary.size()) + std::string("BIN\0", 4) + binary;
+  return out;
+}
+
+}  // namespace exemplar
