@@ -15,13 +15,14 @@ namespace exemplar {
 /// How geometry synthesis came out.
 enum class SynthesisStatus { Complete, Cancelled };
 
-/// What every geometry engine returns: a new field, and for each of its samples the sample of the example
-/// that it was taken from (`core/origin.h`). Where `status` is not Complete the result is partial.
+/// What every geometry engine returns: a new field, and for each of its samples the sample of the
+/// example that it was taken from (`core/origin.h`). Where `status` is not Complete the result is
+/// partial.
 struct SynthesisResult {
   SynthesisStatus status = SynthesisStatus::Complete;
   DistanceField field;
-  Origins origins;            ///< the same size as `field`
-  std::int64_t matches = 0;   ///< searches for a best block that were run
+  Origins origins;           ///< the same size as `field`
+  std::int64_t matches = 0;  ///< searches for a best block that were run
 };
 
 }  // namespace exemplar

@@ -1,0 +1,412 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/optimize.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "sdf/resample.h"
+#include "search/nearest_neighbor_field.h"
+#include "synth/geometry/seams.h"
+
+namespace exemplar {
+namespace {
+
+constexpr std::uint32_t kStartStream = 0x0b71, kSearchStream = 0x0b72;
+/// Samples along the longest side of the coarsest level, about.
+constexpr int kCoarsestSide = 16;
+/// Above this many pairs of patches the search is by PatchMatch.
+constexpr double kExactPairs = 3e7;
+/// Distance of neighbouring patches where the search is by PatchMatch.
+constexpr int kStride = 2;
+/// Seams see distances up to here, in voxels: one through air or through solid is free.
+constexpr float kSeamTruncation = 1.5f;
+
+/// One level of the pyramid: the example, shrunk, in voxels of the level, framed by air on the
+/// sides where the example ends in air.
+struct Level {
+  Array3D<float> source;
+  Vec3i patch;
+  Vec3i low, high;    ///< samples of air added before and after
+  Vec3i exampleSize;  ///< of the shrunk example, without the frame
+  Vec3i targetSize;   ///< of the result at this level, without the frame
+  Vec3i slack;        ///< samples added at the target's end, so that patches at kStride cover it
+  Vec3i framedTarget() const { return targetSize + low + high + slack; }
+};
+
+/// Which of the example's six sides are air all over: bit 2 * axis for the low side, + 1 for the
+/// high.
+int airSides(const DistanceField& example) {
+  const Vec3i n = example.size();
+  int sides = 0b111111;
+  for (std::size_t s = 0; s < example.values.count(); ++s) {
+    if (example.values.values()[s] > 0) continue;
+    const Vec3i p = example.values.ijk(s);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (p[axis] == 0) sides &= ~(1 << (2 * axis));
+      if (p[axis] == n[axis] - 1) sides &= ~(2 << (2 * axis));
+    }
+  }
+  return sides;
+}
+
+Level makeLevel(const DistanceField& example, int sides, int shrink,
+                const OptimizeOptions& options) {
+  const DistanceField shrunk = shrink == 1 ? example : blockAverage(example, shrink);
+  const float limit = static_cast<float>(options.truncation);
+  Level level;
+  level.exampleSize = shrunk.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    level.targetSize[axis] = (options.size[axis] + shrink - 1) / shrink;
+    level.low[axis] = sides >> (2 * axis) & 1 ? options.patch / 2 : 0;
+    level.high[axis] = sides >> (2 * axis) & 2 ? options.patch / 2 : 0;
+  }
+  level.source = Array3D<float>(shrunk.size() + level.low + level.high, limit);
+  level.patch = min(Vec3i{options.patch, options.patch, options.patch}, level.source.size());
+  level.patch = min(level.patch, level.framedTarget());
+  for (int axis = 0; axis < 3; ++axis) {
+    level.slack[axis] = (level.framedTarget()[axis] - level.patch[axis]) % kStride;
+  }
+  for (std::size_t s = 0; s < shrunk.values.count(); ++s) {
+    const float voxels = shrunk.values.values()[s] / static_cast<float>(shrunk.voxelSize);
+    level.source[shrunk.values.ijk(s) + level.low] = std::clamp(voxels, -limit, limit);
+  }
+  return level;
+}
+
+/// Where each sample of the (framed) target comes from in the (framed) source, as an offset-bearing
+/// cell.
+using Sources = Array3D<Vec3i>;
+
+Array3D<float> gather(const Level& level, const Sources& sources) {
+  Array3D<float> target(sources.size());
+  for (std::size_t s = 0; s < sources.count(); ++s) {
+    target.values()[s] = level.source[sources.values()[s]];
+  }
+  return target;
+}
+
+/// Pins the frame to air.
+void pinFrame(const Level& level, float air, Array3D<float>& target) {
+  const Vec3i end = level.low + level.targetSize;
+  for (std::size_t s = 0; s < target.count(); ++s) {
+    const Vec3i p = target.ijk(s);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (p[axis] < level.low[axis] || p[axis] >= end[axis]) target.values()[s] = air;
+    }
+  }
+}
+
+/// A sample's place along an axis on which the example is not stationary.
+int proportional(int p, int target, int source) {
+  return target <= 1
+             ? 0
+             : static_cast<int>(std::llround(static_cast<double>(p) * (source - 1) / (target - 1)));
+}
+
+/// The coarsest level's start: blocks of random content, kept to their place along axes that are
+/// not stationary.
+Sources startFromRandomBlocks(const Level& level, const StationaryAxes& stationary,
+                              const OptimizeOptions& options) {
+  const Random random(options.seed, kStartStream);
+  const Vec3i size = level.framedTarget(), source = level.source.size();
+  const Vec3i block = max(level.patch, Vec3i{2, 2, 2});
+  const Vec3i blocks{(size.x + block.x - 1) / block.x, (size.y + block.y - 1) / block.y,
+                     (size.z + block.z - 1) / block.z};
+  Sources sources(size);
+  for (std::size_t s = 0; s < sources.count(); ++s) {
+    const Vec3i p = sources.ijk(s);
+    Vec3i cell;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int b = p[axis] / block[axis];
+      const std::uint64_t key =
+          (static_cast<std::uint64_t>(p.z / block.z) * blocks.y + p.y / block.y) * blocks.x +
+          p.x / block.x;
+      if (stationary[axis]) {
+        const int range = std::max(1, source[axis] - block[axis] + 1);
+        cell[axis] = static_cast<int>(random.below(range, key, axis)) + p[axis] - b * block[axis];
+      } else {
+        cell[axis] = proportional(p[axis], size[axis], source[axis]);
+      }
+      cell[axis] = std::clamp(cell[axis], 0, source[axis] - 1);
+    }
+    sources[p] = cell;
+  }
+  return sources;
+}
+
+/// The next finer level's start: the same pieces, twice as large.
+Sources refine(const Level& coarse, const Sources& from, const Level& fine) {
+  Sources sources(fine.framedTarget());
+  for (std::size_t s = 0; s < sources.count(); ++s) {
+    const Vec3i p = sources.ijk(s);
+    Vec3i cell;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int inner = p[axis] - fine.low[axis];  // may lie in the frame
+      const int half = inner >> 1;
+      const int c = std::clamp(half + coarse.low[axis], 0, from.size()[axis] - 1);
+      cell[axis] = c;
+      (void)half;
+    }
+    const Vec3i origin = from[cell];
+    for (int axis = 0; axis < 3; ++axis) {
+      const int inner = p[axis] - fine.low[axis];
+      cell[axis] = std::clamp(2 * (origin[axis] - coarse.low[axis]) + (inner & 1) + fine.low[axis],
+                              0, fine.source.size()[axis] - 1);
+    }
+    sources[p] = cell;
+  }
+  return sources;
+}
+
+std::vector<float> gaussian(int patch) {
+  std::vector<float> weights(patch);
+  const double sigma = patch / 3.0;
+  for (int n = 0; n < patch; ++n) {
+    const double d = n - (patch - 1) / 2.0;
+    weights[n] = static_cast<float>(std::exp(-d * d / (2 * sigma * sigma)));
+  }
+  return weights;
+}
+
+/// How much a patch's say weighs (recipe of Kwatra 2005, section 3.2, softened near zero).
+float confidence(float distance) { return 1.0f / (0.05f + distance); }
+
+/// The patches whose samples cover one coordinate: first and one past the last index along an axis.
+struct Covering {
+  int begin, end;
+};
+Covering covering(int p, int patch, int stride, int patches) {
+  const int first = p - patch + 1;
+  return {first <= 0 ? 0 : (first + stride - 1) / stride, std::min(p / stride + 1, patches)};
+}
+
+/// Each sample becomes the mean of what the patches that cover it say.
+Array3D<float> vote(const Level& level, const NearestNeighborField& field, const Vec3i& size) {
+  Array3D<float> target(size);
+  const auto gx = gaussian(level.patch.x), gy = gaussian(level.patch.y),
+             gz = gaussian(level.patch.z);
+  const Vec3i n = field.position.size();
+  const std::size_t rows = static_cast<std::size_t>(size.y) * size.z;
+  parallelFor(0, rows, 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> sum(size.x), weight(size.x);
+    for (std::size_t row = begin; row < end; ++row) {
+      const int j = static_cast<int>(row % size.y), k = static_cast<int>(row / size.y);
+      std::fill(sum.begin(), sum.end(), 0.0f);
+      std::fill(weight.begin(), weight.end(), 0.0f);
+      const Covering cy = covering(j, level.patch.y, field.stride.y, n.y);
+      const Covering cz = covering(k, level.patch.z, field.stride.z, n.z);
+      for (int c = cz.begin; c < cz.end; ++c) {
+        const int dz = k - c * field.stride.z;
+        for (int b = cy.begin; b < cy.end; ++b) {
+          const int dy = j - b * field.stride.y;
+          for (int a = 0; a < n.x; ++a) {
+            const Vec3i from = field.position(a, b, c);
+            const float w = confidence(field.distance(a, b, c)) * gy[dy] * gz[dz];
+            const float* values = &level.source(from.x, from.y + dy, from.z + dz);
+            float* s = &sum[static_cast<std::size_t>(a) * field.stride.x];
+            float* t = &weight[static_cast<std::size_t>(a) * field.stride.x];
+            for (int i = 0; i < level.patch.x; ++i) {
+              s[i] += w * gx[i] * values[i];
+              t[i] += w * gx[i];
+            }
+          }
+        }
+      }
+      for (int i = 0; i < size.x; ++i) target(i, j, k) = sum[i] / weight[i];
+    }
+  });
+  return target;
+}
+
+/// Each sample takes the offset on which the patches that cover it agree most, by weight; the
+/// lowest offset on ties.
+Sources plurality(const Level& level, const NearestNeighborField& field, const Vec3i& size) {
+  Sources sources(size);
+  const auto gx = gaussian(level.patch.x), gy = gaussian(level.patch.y),
+             gz = gaussian(level.patch.z);
+  const Vec3i n = field.position.size();
+  const std::size_t rows = static_cast<std::size_t>(size.y) * size.z;
+  parallelFor(0, rows, 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::pair<Vec3i, float>> votes;
+    for (std::size_t row = begin; row < end; ++row) {
+      const int j = static_cast<int>(row % size.y), k = static_cast<int>(row / size.y);
+      const Covering cy = covering(j, level.patch.y, field.stride.y, n.y);
+      const Covering cz = covering(k, level.patch.z, field.stride.z, n.z);
+      for (int i = 0; i < size.x; ++i) {
+        const Covering cx = covering(i, level.patch.x, field.stride.x, n.x);
+        votes.clear();
+        for (int c = cz.begin; c < cz.end; ++c) {
+          for (int b = cy.begin; b < cy.end; ++b) {
+            for (int a = cx.begin; a < cx.end; ++a) {
+              const Vec3i d = Vec3i{i, j, k} - scaled(Vec3i{a, b, c}, field.stride);
+              const Vec3i cell = field.position(a, b, c) + d;
+              const float w = confidence(field.distance(a, b, c)) * gx[d.x] * gy[d.y] * gz[d.z];
+              const auto known = std::find_if(votes.begin(), votes.end(),
+                                              [&](const auto& v) { return v.first == cell; });
+              if (known == votes.end()) {
+                votes.emplace_back(cell, w);
+              } else {
+                known->second += w;
+              }
+            }
+          }
+        }
+        std::size_t best = 0;
+        for (std::size_t v = 1; v < votes.size(); ++v) {
+          if (votes[v].second > votes[best].second) best = v;
+        }
+        sources(i, j, k) = votes[best].first;
+      }
+    }
+  });
+  return sources;
+}
+
+void check(const DistanceField& example, const OptimizeOptions& options) {
+  const auto fail = [](const std::string& what) { throw InputError(what); };
+  if (volume(example.size()) == 0) fail("the example has no samples");
+  for (int axis = 0; axis < 3; ++axis) {
+    if (example.size()[axis] > 32767) fail("the example is longer than 32,767 samples");
+    if (options.size[axis] < 1) fail("the result's size must be at least 1 sample along each axis");
+  }
+  if (options.patch < 3 || options.patch > 15)
+    fail("patch " + std::to_string(options.patch) + ": expected 3 to 15");
+  if (options.levels && (*options.levels < 1 || *options.levels > 8)) {
+    fail("levels " + std::to_string(*options.levels) + ": expected 1 to 8");
+  }
+  if (options.rounds < 1 || options.rounds > 100)
+    fail("rounds " + std::to_string(options.rounds) + ": expected 1 to 100");
+  if (!(options.truncation > 0)) fail("truncation must be above 0");
+  if (!(options.completeness > 0)) fail("completeness must be above 0");
+  requireMemory(60.0 * static_cast<double>(volume(options.size)), "a result of this size",
+                "use a lower resolution or a smaller scale");
+}
+
+int defaultLevels(const DistanceField& example) {
+  const Vec3i n = example.size();
+  const int longest = std::max({n.x, n.y, n.z});
+  int levels = 1;
+  while ((longest >> levels) >= kCoarsestSide && levels < 8) ++levels;
+  return levels;
+}
+
+}  // namespace
+
+StationaryAxes findStationaryAxes(const DistanceField& example) {
+  StationaryAxes axes;
+  bool* flags[] = {&axes.x, &axes.y, &axes.z};
+  const Vec3i n = example.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    // The occupancy of each third of the axis: where a third differs from the whole by more than
+    // half of the whole's spread, the axis has a place of its own for things.
+    double occupied[4] = {}, count[4] = {};
+    for (std::size_t s = 0; s < example.values.count(); ++s) {
+      const Vec3i p = example.values.ijk(s);
+      const int part = p[axis] * 4 / n[axis];
+      occupied[part] += example.values.values()[s] < 0;
+      count[part] += 1;
+    }
+    double low = 1, high = 0;
+    for (int part = 0; part < 4; ++part) {
+      if (count[part] == 0) continue;
+      low = std::min(low, occupied[part] / count[part]);
+      high = std::max(high, occupied[part] / count[part]);
+    }
+    const double mean = (occupied[0] + occupied[1] + occupied[2] + occupied[3]) /
+                        static_cast<double>(example.values.count());
+    *flags[axis] = high - low <= 0.5 * std::min(mean, 1 - mean) + 0.02;
+  }
+  return axes;
+}
+
+SynthesisResult synthesizeOptimized(const DistanceField& example, const OptimizeOptions& options,
+                                    const Progress& progress) {
+  check(example, options);
+  const StationaryAxes stationary = options.stationary.value_or(findStationaryAxes(example));
+  const int levels = options.levels.value_or(defaultLevels(example));
+  const int sides = airSides(example);
+  const float air = static_cast<float>(options.truncation);
+
+  SynthesisResult result;
+  Level level = makeLevel(example, sides, 1 << (levels - 1), options);
+  Sources sources = startFromRandomBlocks(level, stationary, options);
+  Array3D<float> target;
+  for (int l = levels - 1; l >= 0; --l) {
+    if (l < levels - 1) {
+      Level finer = makeLevel(example, sides, 1 << l, options);
+      sources = refine(level, sources, finer);
+      level = std::move(finer);
+    }
+    target = gather(level, sources);
+    pinFrame(level, air, target);
+
+    NearestNeighborFieldOptions search;
+    search.patch = level.patch;
+    for (int axis = 0; axis < 3; ++axis) {
+      search.window[axis] = stationary[axis] ? -1 : std::max(1, level.source.size()[axis] / 32);
+    }
+    const Vec3i size = level.framedTarget();
+    const Vec3i places = level.source.size() - level.patch + Vec3i{1, 1, 1};
+    const bool exact =
+        static_cast<double>(volume(size)) * static_cast<double>(volume(places)) < kExactPairs;
+    search.method = exact ? NeighborMethod::Exact : NeighborMethod::PatchMatch;
+    search.stride = exact ? Vec3i{1, 1, 1} : min(Vec3i{kStride, kStride, kStride}, level.patch);
+
+    NearestNeighborField field;
+    for (int round = 0; round < options.rounds; ++round) {
+      progress.report(
+          "optimising, level " + std::to_string(levels - l) + " of " + std::to_string(levels),
+          static_cast<double>(round) / options.rounds);
+      search.seed = Random(options.seed, kSearchStream).bits(l, round);
+      search.iterations = round == 0 ? 8 : 3;
+      NearestNeighborField previous = std::move(field);
+      search.start = round == 0 ? nullptr : &previous;
+      field = nearestNeighborField({level.source}, {target}, search, progress);
+      if (!field.complete || progress.cancelled()) {
+        result.status = SynthesisStatus::Cancelled;
+        break;
+      }
+      result.matches += volume(field.position.size());
+      target = vote(level, field, size);
+      pinFrame(level, air, target);
+    }
+    if (result.status == SynthesisStatus::Cancelled) break;
+    sources = plurality(level, field, size);
+  }
+
+  if (result.status == SynthesisStatus::Cancelled) return result;
+  progress.report("cutting seams", 0);
+  Origins origins(options.size);
+  Array3D<float> wanted(options.size);
+  for (std::size_t s = 0; s < origins.count(); ++s) {
+    const Vec3i p = origins.ijk(s);
+    const Vec3i cell = sources[p + level.low] - level.low;
+    origins[p] = Origin(example.values.clamped(cell));
+    wanted[p] = target[p + level.low];
+  }
+  Array3D<float> copied(example.size());
+  for (std::size_t s = 0; s < copied.count(); ++s) {
+    copied.values()[s] =
+        std::clamp(example.values.values()[s] / static_cast<float>(example.voxelSize),
+                   -kSeamTruncation, kSeamTruncation);
+  }
+  for (float& v : wanted.values()) v = std::clamp(v, -kSeamTruncation, kSeamTruncation);
+  refineSeams(copied, wanted, origins, {}, progress);
+  result.origins = std::move(origins);
+  result.field = example;
+  result.field.values = Array3D<float>(options.size);
+  for (std::size_t s = 0; s < result.origins.count(); ++s) {
+    result.field.values.values()[s] = example.values[result.origins.values()[s].cell()];
+  }
+  return result;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,55 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "synth/geometry/synthesize.h"
+
+namespace exemplar {
+
+/// Along which axes an example repeats itself, so that its parts may move along them.
+struct StationaryAxes {
+  bool x = true, y = true, z = true;
+  bool operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  bool operator==(const StationaryAxes&) const = default;
+};
+
+/// Finds the axes along which the example is stationary: those along which its slices' occupancy
+/// and surface do not drift by more than slices of the same example do by chance.
+StationaryAxes findStationaryAxes(const DistanceField& example);
+
+struct OptimizeOptions {
+  Vec3i size{0, 0, 0};  ///< of the result, samples; each component >= the patch's
+  std::uint64_t seed = 0;
+  int patch = 7;  ///< samples a side, 3..15; along a thinner axis its whole thickness
+  std::optional<int>
+      levels;      ///< 1..8; by default the coarsest has about 16 samples along the longest side
+  int rounds = 6;  ///< searches and votes a level, 1..100
+  double truncation = 4;  ///< distances count up to here, in voxels of the level; > 0
+  /// α of the completeness term (Granot et al. 2022, section 4.1), in squared voxels: the smaller,
+  /// the more each part of the example gets its turn; > 0, infinite for none.
+  double completeness = 0.05;
+  std::optional<StationaryAxes> stationary;  ///< found from the example by default
+};
+
+/// Geometry synthesis by patch optimisation, coarse to fine: each level alternates a
+/// nearest-neighbour field of overlapping patches with a weighted vote (Kwatra et al., "Texture
+/// optimization for example-based synthesis", SIGGRAPH 2005, doi:10.1145/1073204.1073263; Simakov
+/// et al., "Summarizing visual data using bidirectional similarity", CVPR 2008,
+/// doi:10.1109/CVPR.2008.4587842). The last step copies instead of averaging: each sample takes the
+/// origin on which the patches that cover it agree most, and the borders of the copied pieces move
+/// to where both sides agree best.
+///
+/// Sides of the example's box that lie wholly outside the solid (a free-standing object with air
+/// around it) stay outside in the result; elsewhere the result is a window into something larger.
+///
+/// Cost: O(samples of the result x patch^3 x rounds) for each level's PatchMatch; memory about 60
+/// bytes a sample of the result. The same bytes at any number of threads. Throws `InputError` for
+/// options out of range.
+SynthesisResult synthesizeOptimized(const DistanceField& example, const OptimizeOptions& options,
+                                    const Progress& progress = {});
+
+}  // namespace exemplar

@@ -1,0 +1,45 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+
+#include "core/array3d.h"
+#include "core/origin.h"
+#include "core/progress.h"
+
+namespace exemplar {
+
+struct SeamOptions {
+  int passes = 2;          ///< over all pieces, >= 0
+  int reach = 5;           ///< how far a piece may grow in one move, samples, >= 1
+  double fidelity = 0.02;  ///< weight of staying near `target`, per squared unit; >= 0
+  double length = 0.02;    ///< cost of a seam's face in itself; >= 0: shorter seams, larger pieces
+  int smallest = 8;        ///< pieces of fewer samples do not grow (but may be taken), >= 1
+};
+
+/// Moves the seams between copied pieces to where both sides agree best.
+///
+/// A *piece* is a connected region of one offset into the example. A seam's face between
+/// neighbours x (of offset a) and y (of offset b) costs |E(x + a) - E(x + b)| + |E(y + a) - E(y +
+/// b)| (Kwatra et al., "Graphcut textures: image and video synthesis using graph cuts", SIGGRAPH
+/// 2003, doi:10.1145/882262.882264, equation 1, without its division), so that where both sides are
+/// air, or both solid, a seam is nearly free. Each piece in turn, the largest first, takes what
+/// lowers the sum: the best of all subsets of its surroundings, by a minimum cut (the expansion
+/// move of Boykov, Veksler, Zabih: "Fast approximate energy minimization via graph cuts", IEEE
+/// TPAMI 23(11), 2001, section 5). The sum never rises.
+///
+/// `example` holds what is copied (clamp it to a voxel or two, so that only the surface counts),
+/// `target` what the result should be near to; `origins`, of the size of `target` (example 0, no
+/// turns), is improved in place. Pieces that do not touch move in parallel; the same bytes at any
+/// number of threads. About O(samples near seams x reach). Stops early, with origins still sound,
+/// when cancelled.
+void refineSeams(const Array3D<float>& example, const Array3D<float>& target, Origins& origins,
+                 const SeamOptions& options = {}, const Progress& progress = {});
+
+/// The sum that `refineSeams` lowers, in millionths of a unit: over all faces and samples.
+std::int64_t seamCost(const Array3D<float>& example, const Array3D<float>& target,
+                      const Origins& origins, const SeamOptions& options = {});
+
+}  // namespace exemplar
