@@ -4,6 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
 
 #include "core/progress.h"
 #include "core/vec.h"
@@ -18,18 +21,56 @@ struct View {
   double elevation = 0.52;  ///< radians above the horizon, -pi/2..pi/2
 };
 
+/// The view that a user names: `iso` (the default), `front` (looks along +y), `back`, `left`,
+/// `right` (seen from -x, from +x), `top`, `bottom`, or "AZ,EL" in degrees, as "-35,30". Throws
+/// `InputError` listing the names for anything else.
+View viewFromName(std::string_view name);
+
 struct RenderOptions {
   int width = 960, height = 720;  ///< pixels, 1..16384
   View view;
-  int samples = 64;               ///< rays a pixel, 1..4096
-  std::uint64_t seed = 0;
+  /// Rays a pixel, 1..4096: paths of four (camera, key light, sky, key light seen from there). What
+  /// noise remains is filtered out; the filter does less the more rays there are.
+  int samples = 64;
+  std::uint64_t seed = 0;  ///< of the noise; pictures of two seeds look the same
+
+  /// What the camera holds, in place of the mesh's own vertices: pictures with frames of one size
+  /// (see `frameOfSize`) and one view show their meshes at one scale.
+  std::optional<Box3d> frame;
+  double margin = 0.06;       ///< free share of the picture on each side, 0..0.45
+  double fieldOfView = 0.52;  ///< radians across the picture's shorter side, 0.01..2.5
+
+  double keyAzimuth = 0.95;   ///< of the key light, radians to the left of the camera, any finite
+  double keyElevation = 0.9;  ///< radians above the horizon, 0.05..pi/2
+  double keyRadius = 0.075;   ///< angular radius, radians: how soft shadows are, 0.001..0.5
+  bool ground = true;         ///< a floor below the mesh (never drawn in views from below)
+
+  /// Edges whose faces meet at less than this look smooth; radians, 0 (all facets) .. pi/2.
+  double creaseAngle = 0.7;
 };
 
 /// A shaded picture of a mesh (Embree): a soft key light from over the shoulder, sky light with
-/// occlusion, a ground plane that catches the shadow, materials and vertex colours, filmic tones, z
-/// up, the camera far enough to hold the whole mesh. Opaque sRGB. The same bytes at any number of
-/// threads. Throws `InputError` for options out of range.
+/// occlusion and one bounce, a ground plane that catches the shadow and is otherwise the light
+/// background (`kBackground`), metallic-roughness materials with base colour textures, vertex
+/// colours, filmic tones, z up, the camera as near as holds the whole mesh. Both sides of a face
+/// show; everything is opaque. A mesh without materials and colours is shown as warm grey clay.
+///
+/// Opaque sRGB, three channels. The same bytes at any number of threads (on one kind of machine:
+/// Embree's kernels differ in the last bit between instruction sets). An empty picture (width 0)
+/// where `progress` cancels. About 4 s on two cores for the defaults and a third of a million
+/// triangles. Throws `InputError` for options out of range, for a mesh that `validate` refuses, for
+/// a texture that cannot be decoded, and where memory would not do.
 Image8 render(const TriangleMesh& mesh, const RenderOptions& options = {},
               const Progress& progress = {});
+
+/// A box of `size` on the same floor as `box` and centred over it: a frame to show `box` in.
+Box3d frameOfSize(const Box3d& box, const Vec3d& size);
+
+/// The colour behind pictures, sRGB.
+inline constexpr std::uint8_t kBackground[3] = {240, 240, 241};
+
+/// Pictures in a row from left to right, `gap` >= 0 pixels of background between them; lower ones
+/// are centred. All have 3 channels. Throws `InputError` for none, or where they would not fit.
+Image8 sideBySide(std::span<const Image8> pictures, int gap = 0);
 
 }  // namespace exemplar

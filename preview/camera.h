@@ -1,0 +1,38 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/vec.h"
+#include "preview/render.h"
+
+namespace exemplar {
+
+/// A pinhole camera: picture point (x, y), both -1..1 with y up, looks along
+/// forward + x tanX right + y tanY up from `position`.
+struct Camera {
+  Vec3d position;
+  Vec3d right, up, forward;  ///< orthonormal
+  double tanX = 0, tanY = 0;
+};
+
+/// Finds the camera of a given direction that stands as near as shows all points within the
+/// picture less its margins, with what they take up in its middle. Exact, not iterative.
+class CameraFit {
+ public:
+  /// Reads width, height, view, margin and fieldOfView.
+  explicit CameraFit(const RenderOptions& options);
+
+  void add(const Vec3d& point);
+
+  /// For at least one point. `minimumDepth` > 0 is the least distance along `forward` between the
+  /// camera and each point (for points that coincide).
+  Camera camera(double minimumDepth) const;
+
+ private:
+  Camera axes_;  // position unset
+  double freeX_, freeY_;
+  double lowX_, highX_, lowY_, highY_, nearest_;
+};
+
+}  // namespace exemplar

@@ -1,0 +1,739 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "preview/render.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "mesh/color.h"
+#include "preview/camera.h"
+#include "preview/film.h"
+#include "preview/normals.h"
+#include "preview/sampling.h"
+#include "preview/shading.h"
+#include "preview/texture.h"
+
+namespace exemplar {
+namespace {
+
+constexpr int kLanes = 8;             // paths traced together
+constexpr int kRaysOfPath = 4;        // camera, key, sky, key seen from there
+constexpr int kTile = 32;             // pixels
+constexpr float kFar = 1e6f;          // scene units, see `Scale`
+constexpr float kLift = 2e-5f;        // start of rays above their surface, scene units
+constexpr float kDeepAmbient = 0.4f;  // share of open light after the bounces that are traced
+constexpr float kBrightest = 12;      // cap on the light that one path brings
+constexpr float kPi = std::numbers::pi_v<float>;
+
+void check(bool good, const std::string& what) {
+  if (!good) throw InputError("render: " + what);
+}
+
+void validate(const RenderOptions& o) {
+  const auto within = [](double v, double low, double high) { return v >= low && v <= high; };
+  constexpr double kRight = std::numbers::pi / 2 + 1e-9;
+  check(within(o.width, 1, 16384) && within(o.height, 1, 16384),
+        "a picture of " + std::to_string(o.width) + " x " + std::to_string(o.height) +
+            " pixels; each side must be 1..16384");
+  check(std::isfinite(o.view.azimuth), "the view's azimuth must be finite");
+  check(within(o.view.elevation, -kRight, kRight), "the view's elevation must be -pi/2..pi/2");
+  check(within(o.samples, 1, 4096),
+        "samples is " + std::to_string(o.samples) + "; it must be 1..4096");
+  check(!o.frame || (!o.frame->empty() && isFinite(o.frame->min) && isFinite(o.frame->max)),
+        "the frame must be a finite box");
+  check(within(o.margin, 0, 0.45), "margin must be 0..0.45");
+  check(within(o.fieldOfView, 0.01, 2.5), "fieldOfView must be 0.01..2.5 radians");
+  check(std::isfinite(o.keyAzimuth), "keyAzimuth must be finite");
+  check(within(o.keyElevation, 0.05, kRight), "keyElevation must be 0.05..pi/2");
+  check(within(o.keyRadius, 0.001, 0.5), "keyRadius must be 0.001..0.5 radians");
+  check(within(o.creaseAngle, 0, kRight), "creaseAngle must be 0..pi/2");
+}
+
+// From the world to the scene that is traced: the mesh's box about the origin, its longest side
+// two units, so that single precision serves whatever the coordinates. Views from below are traced
+// turned over, with light from "above".
+struct Scale {
+  Vec3d center;
+  double factor = 1;
+  bool turnedOver = false;
+
+  Vec3d operator()(const Vec3d& p) const {
+    const Vec3d q = (p - center) * factor;
+    return turnedOver ? turn(q) : q;
+  }
+  template <class T>
+  static Vec3<T> turn(const Vec3<T>& v) {
+    return {v.x, v.y, -v.z};
+  }
+};
+
+Scale scaleOf(const Box3d& box, bool turnedOver) {
+  const Vec3d size = box.size();
+  const double side = std::max({size.x, size.y, size.z});
+  return {box.min + size * 0.5, side > 1e-300 ? 2 / side : 1, turnedOver};
+}
+
+// What a ray meets.
+struct Hit {
+  bool mesh = false;
+  float distance = kFar, u = 0, v = 0;
+  std::uint32_t triangle = 0;
+};
+
+struct Ray {
+  Vec3f origin, direction;
+};
+
+using Lanes = std::array<bool, kLanes>;
+using Rays = std::array<Ray, kLanes>;
+using Hits = std::array<Hit, kLanes>;
+
+// The mesh in Embree.
+class Tracer {
+ public:
+  Tracer(const TriangleMesh& mesh, const Scale& scale);
+
+  // Nearest hits of the rays in `live` lanes. `coherent`: the rays run much alike (a hint).
+  Hits nearest(const Rays& rays, const Lanes& live, bool coherent) const;
+  // Which of the rays in `live` lanes meet nothing.
+  Lanes open(const Rays& rays, const Lanes& live, bool coherent) const;
+
+  std::array<Vec3f, 3> corners(std::uint32_t triangle) const {
+    const auto& t = triangles_[triangle];
+    return {vertex(t[0]), vertex(t[1]), vertex(t[2])};
+  }
+
+ private:
+  struct ReleaseDevice {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  };
+  struct ReleaseScene {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+
+  Vec3f vertex(std::uint32_t v) const {
+    const float* p = vertices_ + 3 * static_cast<std::size_t>(v);
+    return {p[0], p[1], p[2]};
+  }
+  void checkErrors() const {
+    if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
+      throw std::runtime_error("Embree: error " + std::to_string(error));
+  }
+
+  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
+  std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
+  const float* vertices_ = nullptr;
+  const std::array<std::uint32_t, 3>* triangles_ = nullptr;
+};
+
+Tracer::Tracer(const TriangleMesh& mesh, const Scale& scale) : device_(rtcNewDevice(nullptr)) {
+  if (!device_) throw std::runtime_error("Embree: no device");
+  scene_.reset(rtcNewScene(device_.get()));
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  const std::size_t n = mesh.positions.size(), m = mesh.triangles.size();
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), n));
+  auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), m));
+  if (!vertices || !triangles) {
+    rtcReleaseGeometry(geometry);
+    throw std::bad_alloc();
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    const Vec3f p = cast<float>(scale(mesh.positions[v]));
+    vertices[3 * v] = p.x, vertices[3 * v + 1] = p.y, vertices[3 * v + 2] = p.z;
+  }
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+  vertices_ = vertices;
+  triangles_ = triangles;
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_.get(), geometry);
+  rtcReleaseGeometry(geometry);  // the scene holds it
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  // Built by one thread: with more, the order of triangles within the tree's leaves would depend on
+  // their number, and with it which of two coinciding triangles a ray reports.
+  tbb::task_arena alone(1);
+  alone.execute([&] { rtcJoinCommitScene(scene_.get()); });
+  checkErrors();
+}
+
+template <class Packet>
+void fill(Packet& packet, int* valid, const Rays& rays, const Lanes& live) {
+  for (int k = 0; k < kLanes; ++k) {
+    valid[k] = live[k] ? -1 : 0;
+    packet.org_x[k] = rays[k].origin.x;
+    packet.org_y[k] = rays[k].origin.y;
+    packet.org_z[k] = rays[k].origin.z;
+    packet.dir_x[k] = rays[k].direction.x;
+    packet.dir_y[k] = rays[k].direction.y;
+    packet.dir_z[k] = rays[k].direction.z;
+    packet.tnear[k] = 0;
+    packet.tfar[k] = live[k] ? kFar : -1;
+    packet.time[k] = 0;
+    packet.mask[k] = ~0u;
+    packet.id[k] = 0;
+    packet.flags[k] = 0;
+  }
+}
+
+RTCIntersectContext contextFor(bool coherent) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags =
+      coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  return context;
+}
+
+bool any(const Lanes& lanes) {
+  return std::any_of(lanes.begin(), lanes.end(), [](bool lane) { return lane; });
+}
+
+Hits Tracer::nearest(const Rays& rays, const Lanes& live, bool coherent) const {
+  Hits hits{};
+  if (!any(live)) return hits;
+  RTCIntersectContext context = contextFor(coherent);
+  RTCRayHit8 packet;
+  alignas(32) int valid[kLanes];
+  fill(packet.ray, valid, rays, live);
+  for (int k = 0; k < kLanes; ++k)
+    packet.hit.geomID[k] = packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect8(valid, scene_.get(), &context, &packet);
+  for (int k = 0; k < kLanes; ++k)
+    if (live[k] && packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
+      hits[k] = {true, packet.ray.tfar[k], packet.hit.u[k], packet.hit.v[k], packet.hit.primID[k]};
+  return hits;
+}
+
+Lanes Tracer::open(const Rays& rays, const Lanes& live, bool coherent) const {
+  Lanes open{};
+  if (!any(live)) return open;
+  RTCIntersectContext context = contextFor(coherent);
+  RTCRay8 packet;
+  alignas(32) int valid[kLanes];
+  fill(packet, valid, rays, live);
+  rtcOccluded8(valid, scene_.get(), &context, &packet);
+  for (int k = 0; k < kLanes; ++k) open[k] = live[k] && packet.tfar[k] >= 0;
+  return open;
+}
+
+struct Paint {
+  Vec3f color;  // linear
+  float metallic = 0, roughness = 0;
+  Vec3f emission{};
+};
+
+// What the mesh is made of.
+class Paints {
+ public:
+  explicit Paints(const TriangleMesh& mesh) : mesh_(mesh) {
+    textures_.resize(mesh.textures.size());
+    for (const std::uint32_t m : mesh.triangleMaterials)
+      if (const auto& t = mesh.materials[m].baseColorTexture; t && !textures_[*t])
+        textures_[*t] = std::make_unique<ColorTexture>(mesh.textures[*t]);
+  }
+
+  Paint at(std::uint32_t triangle, float u, float v) const {
+    const std::array<float, 3> share{1 - u - v, u, v};
+    Paint paint = kClay;
+    if (mesh_.hasMaterials()) {
+      const Material& m = mesh_.materials[mesh_.triangleMaterials[triangle]];
+      paint = {
+          {m.baseColor[0], m.baseColor[1], m.baseColor[2]}, m.metallic, m.roughness, m.emission};
+      if (m.baseColorTexture && mesh_.hasUvs()) {
+        Vec2f at{};
+        for (int c = 0; c < 3; ++c) {
+          at.x += mesh_.uvs[triangle][c].x * share[c];
+          at.y += mesh_.uvs[triangle][c].y * share[c];
+        }
+        paint.color = scaled(paint.color, textures_[*m.baseColorTexture]->at(at));
+      }
+    } else if (mesh_.hasColors()) {
+      paint.color = {1, 1, 1};
+    }
+    if (mesh_.hasColors()) {
+      Vec3f color{};
+      for (int c = 0; c < 3; ++c) {
+        const auto& rgba = mesh_.colors[mesh_.triangles[triangle][c]];
+        color += Vec3f{rgba[0], rgba[1], rgba[2]} * share[c];
+      }
+      paint.color = scaled(paint.color, color);
+    }
+    return paint;
+  }
+
+ private:
+  static constexpr Paint kClay{{0.50f, 0.455f, 0.405f}, 0, 0.65f, {}};
+
+  const TriangleMesh& mesh_;
+  std::vector<std::unique_ptr<ColorTexture>> textures_;
+};
+
+constexpr Paint Paints::kClay;
+
+// A point on the mesh or the floor that light is gathered for.
+struct Place {
+  bool floor = false;
+  Vec3f position;  // where rays from here start
+  Scatter scatter;
+  float weight = 1;  // of what is gathered against the open floor; below 1 far out on the floor
+  Vec3f emission{};
+};
+
+// The whole picture's constants, and the light that one path carries.
+class Photographer {
+ public:
+  Photographer(const TriangleMesh& mesh, const RenderOptions& options);
+
+  int paths() const { return paths_; }
+  // The pixels of one tile.
+  void expose(Film& film, int left, int top) const;
+
+ private:
+  struct PathLight {
+    Vec3f key{}, sky{}, reflected{};
+  };
+  using Places = std::array<Place, kLanes>;
+
+  FilmPixel pixel(const PixelSampler& sampler, int x, int y) const;
+  Ray cameraRay(double x, double y, double* skipped) const;
+  Place meshPlace(const Hit& hit, const Vec3f& direction) const;
+  Place floorPlace(const Vec3f& position) const;
+  // Share of what is gathered on the floor that shows there: 1 under the mesh, 0 far out.
+  float floorWeight(const Vec3f& position) const;
+  // Where a ray meets the floor; kFar where it does not.
+  float floorDistance(const Ray& ray) const;
+  std::array<PathLight, kLanes> gather(const Places& places, const Lanes& live,
+                                       const PixelSampler& sampler, int firstPath) const;
+  // The light that comes along rays that start on a surface: true for those that meet nothing.
+  std::array<Vec3f, kLanes> incoming(const Rays& rays, const Lanes& live, Lanes* missed,
+                                     const PixelSampler& sampler, int firstPath) const;
+
+  const TriangleMesh& mesh_;
+  RenderOptions options_;
+  Scale scale_;
+  Tracer tracer_;
+  std::vector<std::array<Vec3f, 3>> normals_;
+  Paints paints_;
+  Studio studio_;
+  Camera camera_;
+  int paths_;
+  bool floor_;
+  float floorHeight_, fadeStart_;
+  Vec3f floorAlbedo_;  // makes the open floor come out as the background
+};
+
+Vec3f keyDirection(const RenderOptions& options) {
+  // Behind the camera, turned to its left.
+  const double a = options.view.azimuth - options.keyAzimuth, e = options.keyElevation;
+  return cast<float>(Vec3d{std::sin(a) * std::cos(e), -std::cos(a) * std::cos(e), std::sin(e)});
+}
+
+// The light that `filmic` shows as the background.
+Vec3f backgroundLight() {
+  const Vec3f wanted{srgb8ToLinear(kBackground[0]), srgb8ToLinear(kBackground[1]),
+                     srgb8ToLinear(kBackground[2])};
+  Vec3f light = wanted;
+  for (int n = 0; n < 100; ++n) {
+    const Vec3f shown = filmic(light);
+    for (int c = 0; c < 3; ++c) light[c] *= wanted[c] / shown[c];
+  }
+  return light;
+}
+
+Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& options)
+    : mesh_(mesh),
+      options_(options),
+      scale_(scaleOf(boundingBox(mesh), options.view.elevation < 0)),
+      tracer_(mesh, scale_),
+      normals_(cornerNormals(mesh, options.creaseAngle)),
+      paints_(mesh),
+      studio_(keyDirection(options), static_cast<float>(options.keyRadius)),
+      paths_(std::max(1, options.samples / kRaysOfPath)) {
+  // The camera is fitted before the scene is turned over, and turned with it: what it shows stays.
+  Scale upright = scale_;
+  upright.turnedOver = false;
+  CameraFit fit(options);
+  double reach = 0;
+  const auto hold = [&](const Vec3d& p) {
+    const Vec3d q = upright(p);
+    fit.add(q);
+    reach = std::max({reach, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+  };
+  if (options.frame) {
+    const Box3d& b = *options.frame;
+    for (int corner = 0; corner < 8; ++corner)
+      hold({(corner & 1 ? b.max : b.min).x, (corner & 2 ? b.max : b.min).y,
+            (corner & 4 ? b.max : b.min).z});
+  } else {
+    for (const auto& triangle : mesh.triangles)
+      for (const std::uint32_t v : triangle) hold(mesh.positions[v]);
+  }
+  camera_ = fit.camera(reach > 0 ? 0.05 * reach : 1);
+  if (scale_.turnedOver) {
+    camera_.position = Scale::turn(camera_.position);
+    camera_.right = Scale::turn(camera_.right);
+    camera_.up = Scale::turn(camera_.up);
+    camera_.forward = Scale::turn(camera_.forward);
+    for (auto& normals : normals_)
+      for (Vec3f& normal : normals) normal = Scale::turn(normal);
+  }
+
+  const Box3d box = boundingBox(mesh);
+  const Vec3f half = cast<float>(box.size() * (0.5 * scale_.factor));
+  // A hair below, so that a flat mesh that lies on its floor is seen on top of it.
+  floorHeight_ = -half.z - 1e-3f;
+  floor_ = options.ground && !scale_.turnedOver && camera_.position.z > floorHeight_;
+  const float footprint = std::sqrt(half.x * half.x + half.y * half.y);
+  fadeStart_ = footprint + half.z;
+  const Vec3f open = studio_.keyIrradiance() * (studio_.toKey().z / kPi) + studio_.floorSky();
+  const Vec3f background = backgroundLight();
+  floorAlbedo_ = {background.x / open.x, background.y / open.y, background.z / open.z};
+}
+
+Ray Photographer::cameraRay(double x, double y, double* skipped) const {
+  const Vec3d direction =
+      normalized(camera_.forward + camera_.right * ((2 * x / options_.width - 1) * camera_.tanX) +
+                 camera_.up * ((1 - 2 * y / options_.height) * camera_.tanY));
+  // Far cameras (a large frame, a narrow field) start nearer, where single precision is finer.
+  *skipped = std::max(0.0, -dot(camera_.position, direction) - 8);
+  return {cast<float>(camera_.position + direction * *skipped), cast<float>(direction)};
+}
+
+float Photographer::floorDistance(const Ray& ray) const {
+  if (!floor_ || ray.direction.z >= 0 || ray.origin.z <= floorHeight_) return kFar;
+  return std::min(kFar, (floorHeight_ - ray.origin.z) / ray.direction.z);
+}
+
+float Photographer::floorWeight(const Vec3f& p) const {
+  const float away = std::sqrt(p.x * p.x + p.y * p.y) / fadeStart_;
+  const float t = std::clamp((away - 1) / 1.2f, 0.0f, 1.0f);
+  return 1 - t * t * (3 - 2 * t);
+}
+
+Place Photographer::floorPlace(const Vec3f& position) const {
+  Place place;
+  place.floor = true;
+  place.position = position;
+  place.position.z = floorHeight_;
+  place.weight = floorWeight(position);
+  place.scatter.normal = {0, 0, 1};
+  place.scatter.diffuse = floorAlbedo_;
+  place.scatter.mirror = {};
+  return place;
+}
+
+Place Photographer::meshPlace(const Hit& hit, const Vec3f& direction) const {
+  const std::array<Vec3f, 3> corners = tracer_.corners(hit.triangle);
+  const std::array<float, 3> share{1 - hit.u - hit.v, hit.u, hit.v};
+  Vec3f flat = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const float side = dot(flat, direction) > 0 ? -1.0f : 1.0f;
+  flat = flat * side;
+  // The scene is turned over or not; its winding then too, but corner normals say what is out.
+  Vec3f position{}, normal{};
+  std::array<Vec3f, 3> normals = normals_[hit.triangle];
+  for (int c = 0; c < 3; ++c) {
+    if (dot(normals[c], flat) < 0) normals[c] = -normals[c];
+    position += corners[c] * share[c];
+    normal += normals[c] * share[c];
+  }
+  // Rays start from the smooth surface that the normals speak of, or facets would shadow
+  // themselves where it turns from the light (J. Hanika, "Hacking the shadow terminator", Ray
+  // Tracing Gems II, 2021, chapter 4).
+  Vec3f smooth = position;
+  for (int c = 0; c < 3; ++c) {
+    const float below = std::min(0.0f, dot(position - corners[c], normals[c]));
+    smooth += normals[c] * (-below * share[c]);
+  }
+  const Paint paint = paints_.at(hit.triangle, hit.u, hit.v);
+  normal = normalized(normal);
+  if (normal == Vec3f{}) normal = flat;
+  Place place;
+  place.position = smooth + flat * kLift;
+  place.scatter = Scatter(normal, -direction, paint.color, paint.metallic, paint.roughness);
+  place.emission = paint.emission;
+  return place;
+}
+
+std::array<Vec3f, kLanes> Photographer::incoming(const Rays& rays, const Lanes& live, Lanes* missed,
+                                                 const PixelSampler& sampler, int firstPath) const {
+  std::array<Vec3f, kLanes> light{}, albedo{}, normal{};
+  const Hits hits = tracer_.nearest(rays, live, false);
+  Lanes lit{};
+  std::array<bool, kLanes> onFloor{};
+  Rays keyRays{};
+  *missed = {};
+  for (int k = 0; k < kLanes; ++k) {
+    if (!live[k]) continue;
+    const float floorAt = floorDistance(rays[k]);
+    const float at = std::min(floorAt, hits[k].distance);
+    if (at >= kFar) {
+      (*missed)[k] = true;
+      light[k] = studio_.sky(rays[k].direction);
+      continue;
+    }
+    onFloor[k] = !hits[k].mesh || floorAt < hits[k].distance;
+    if (onFloor[k]) {
+      normal[k] = {0, 0, 1};
+    } else {
+      const std::array<Vec3f, 3> p = tracer_.corners(hits[k].triangle);
+      normal[k] = normalized(cross(p[1] - p[0], p[2] - p[0]));
+      if (dot(normal[k], rays[k].direction) > 0) normal[k] = -normal[k];
+      const Paint paint = paints_.at(hits[k].triangle, hits[k].u, hits[k].v);
+      albedo[k] = paint.color;
+      light[k] = paint.emission;
+    }
+    keyRays[k].origin = rays[k].origin + rays[k].direction * at + normal[k] * kLift;
+    keyRays[k].direction = studio_.sampleKey(sampler.get(firstPath + k, 3));
+    lit[k] = dot(keyRays[k].direction, normal[k]) > 0;
+  }
+  const Lanes open = tracer_.open(keyRays, lit, false);
+  for (int k = 0; k < kLanes; ++k) {
+    if (!live[k] || (*missed)[k]) continue;
+    if (onFloor[k]) {
+      light[k] = studio_.floorRadiance(open[k] ? 1.0f : 0.0f);
+      continue;
+    }
+    Vec3f fall = studio_.ambient(normal[k]) * kDeepAmbient;
+    if (open[k]) fall += studio_.keyIrradiance() * (dot(keyRays[k].direction, normal[k]) / kPi);
+    light[k] += scaled(albedo[k], fall);
+  }
+  return light;
+}
+
+std::array<Photographer::PathLight, kLanes> Photographer::gather(const Places& places,
+                                                                 const Lanes& live,
+                                                                 const PixelSampler& sampler,
+                                                                 int firstPath) const {
+  std::array<PathLight, kLanes> light{};
+  // The key light, sampled by its disc.
+  Rays rays{};
+  Lanes wanted{};
+  for (int k = 0; k < kLanes; ++k) {
+    if (!live[k]) continue;
+    rays[k] = {places[k].position, studio_.sampleKey(sampler.get(firstPath + k, 1))};
+    wanted[k] = dot(rays[k].direction, places[k].scatter.normal) > 0;
+  }
+  const Lanes open = tracer_.open(rays, wanted, true);
+  for (int k = 0; k < kLanes; ++k) {
+    if (!open[k]) continue;
+    const Scatter& scatter = places[k].scatter;
+    if (places[k].floor) {
+      light[k].key = studio_.keyIrradiance() * (studio_.toKey().z / kPi);
+      continue;
+    }
+    // Balance heuristic with the sky ray below, which may end in the disc too.
+    const float share =
+        studio_.keyDensity() / (studio_.keyDensity() + scatter.density(rays[k].direction));
+    const Scatter::Response response = scatter.response(rays[k].direction);
+    light[k].key = studio_.keyIrradiance() * (response.diffuse * share);
+    light[k].reflected = scaled(studio_.keyIrradiance() * share, response.mirror);
+  }
+
+  // Everything else, sampled by what the surface scatters.
+  std::array<float, kLanes> density{};
+  Lanes going{}, missed{};
+  for (int k = 0; k < kLanes; ++k) {
+    if (!live[k]) continue;
+    const Sample2 at = sampler.get(firstPath + k, 2);
+    const Scatter& scatter = places[k].scatter;
+    if (places[k].floor) {
+      const float r = std::sqrt(at.x), phi = 2 * kPi * at.y;
+      const float z = std::sqrt(std::max(1e-6f, 1 - at.x));
+      rays[k].direction = {r * std::cos(phi), r * std::sin(phi), z};
+      density[k] = z / kPi;
+    } else {
+      rays[k].direction = scatter.sample(at, sampler.get(firstPath + k, 4).x);
+      density[k] = scatter.density(rays[k].direction);
+    }
+    going[k] = density[k] > 0;
+  }
+  const std::array<Vec3f, kLanes> arriving = incoming(rays, going, &missed, sampler, firstPath);
+  for (int k = 0; k < kLanes; ++k) {
+    if (!live[k]) continue;
+    if (places[k].floor) {
+      // Against the open floor, whose sky light is known: no noise where nothing is near.
+      light[k].sky = studio_.floorSky();
+      if (!missed[k]) light[k].sky += arriving[k] - studio_.sky(rays[k].direction);
+      continue;
+    }
+    if (!going[k]) continue;
+    Vec3f sky = arriving[k];
+    const Scatter& scatter = places[k].scatter;
+    if (missed[k] && studio_.inKey(rays[k].direction))
+      sky += studio_.keyRadiance() * (density[k] / (density[k] + studio_.keyDensity()));
+    const Scatter::Response response = scatter.response(rays[k].direction);
+    light[k].sky = sky * (response.diffuse / density[k]);
+    light[k].reflected += min(scaled(sky, response.mirror) * (1 / density[k]),
+                              Vec3f{kBrightest, kBrightest, kBrightest});
+  }
+  return light;
+}
+
+float luminance(const Vec3f& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+// Sums light that falls on known reflectances, and its noise.
+class LightSum {
+ public:
+  void add(const Vec3f& reflectance, const Vec3f& light) {
+    const float l = luminance(light);
+    reflectance_ += reflectance;
+    reflected_ += scaled(reflectance, light);
+    sum_ += l;
+    squares_ += l * l;
+  }
+  Vec3f reflectance(int paths) const { return reflectance_ / static_cast<float>(paths); }
+  // The light that, on the mean reflectance, gives the mean of what was reflected.
+  NoisyLight light(int paths) const {
+    NoisyLight result;
+    for (int c = 0; c < 3; ++c)
+      if (reflectance_[c] > 0) result.mean[c] = reflected_[c] / reflectance_[c];
+    const float n = static_cast<float>(paths), mean = sum_ / n;
+    // One path tells no variance: take all of its light for noise.
+    const float spread = paths > 1 ? (squares_ / n - mean * mean) / (n - 1) : mean * mean;
+    result.variance = std::max(0.0f, spread);
+    return result;
+  }
+
+ private:
+  Vec3f reflectance_{}, reflected_{};
+  float sum_ = 0, squares_ = 0;
+};
+
+FilmPixel Photographer::pixel(const PixelSampler& sampler, int x, int y) const {
+  FilmPixel pixel;
+  LightSum key, sky, reflected;
+  const Vec3f openKey = studio_.keyIrradiance() * (studio_.toKey().z / kPi);
+  int seen = 0;
+  for (int first = 0; first < paths_; first += kLanes) {
+    const int lanes = std::min(kLanes, paths_ - first);
+    Rays rays{};
+    Lanes live{}, gathers{};
+    std::array<double, kLanes> skipped{};
+    for (int k = 0; k < lanes; ++k) {
+      // A tent of half-width 0.75 pixels about the pixel's centre.
+      const Sample2 at = sampler.get(first + k, 0);
+      const auto tent = [](double t) {
+        return 0.75 * (t < 0.5 ? std::sqrt(2 * t) - 1 : 1 - std::sqrt(2 - 2 * t));
+      };
+      rays[k] = cameraRay(x + 0.5 + tent(at.x), y + 0.5 + tent(at.y), &skipped[k]);
+      live[k] = true;
+    }
+    const Hits hits = tracer_.nearest(rays, live, true);
+    Places places{};
+    for (int k = 0; k < lanes; ++k) {
+      const float floorAt = floorDistance(rays[k]);
+      if (hits[k].mesh && hits[k].distance <= floorAt) {
+        places[k] = meshPlace(hits[k], rays[k].direction);
+        gathers[k] = true;
+      } else {
+        pixel.floor += 1;
+        if (floorAt < kFar) {
+          places[k] = floorPlace(rays[k].origin + rays[k].direction * floorAt);
+          gathers[k] = places[k].weight > 0;
+        }
+      }
+      if (!gathers[k]) continue;
+      ++seen;
+      const float away =
+          static_cast<float>(skipped[k] + (places[k].floor ? floorAt : hits[k].distance));
+      pixel.normal += places[k].scatter.normal;
+      pixel.position += places[k].position;
+      pixel.size += away * static_cast<float>(2 * camera_.tanX / options_.width);
+    }
+    const auto light = gather(places, gathers, sampler, first);
+    for (int k = 0; k < lanes; ++k) {
+      if (!gathers[k]) {
+        key.add(floorAlbedo_, openKey);
+        sky.add(floorAlbedo_, studio_.floorSky());
+        reflected.add({}, {});
+        continue;
+      }
+      const Place& place = places[k];
+      const float w = place.weight;
+      key.add(place.scatter.diffuse, light[k].key * w + openKey * (1 - w));
+      sky.add(place.scatter.diffuse, light[k].sky * w + studio_.floorSky() * (1 - w));
+      reflected.add(place.scatter.mirror, light[k].reflected);
+      pixel.own += place.emission;
+    }
+  }
+  pixel.key = key.light(paths_);
+  pixel.sky = sky.light(paths_);
+  pixel.reflected = reflected.light(paths_);
+  pixel.diffuse = key.reflectance(paths_);
+  pixel.mirror = reflected.reflectance(paths_);
+  const float per = 1 / static_cast<float>(paths_);
+  pixel.own *= per;
+  pixel.floor *= per;
+  if (seen > 0) {
+    pixel.normal = normalized(pixel.normal);
+    pixel.position *= 1 / static_cast<float>(seen);
+    pixel.size *= 1 / static_cast<float>(seen);
+  }
+  return pixel;
+}
+
+void Photographer::expose(Film& film, int left, int top) const {
+  PixelSampler sampler(options_.seed, paths_);
+  for (int y = top; y < std::min(top + kTile, film.height); ++y)
+    for (int x = left; x < std::min(left + kTile, film.width); ++x) {
+      sampler.startPixel(x, y);
+      film.pixels[static_cast<std::size_t>(y) * film.width + x] = pixel(sampler, x, y);
+    }
+}
+
+}  // namespace
+
+Image8 render(const TriangleMesh& mesh, const RenderOptions& options, const Progress& progress) {
+  validate(options);
+  validate(mesh, "render");
+  const double pixels = static_cast<double>(options.width) * options.height;
+  requireMemory(pixels * (sizeof(FilmPixel) + 2 * 3 * sizeof(NoisyLight)) +
+                    300.0 * static_cast<double>(mesh.triangles.size()),
+                "a picture of " + std::to_string(options.width) + " x " +
+                    std::to_string(options.height) + " pixels",
+                "ask for a smaller one");
+  progress.report("preparing the picture", 0);
+  const Photographer photographer(mesh, options);
+
+  Film film{options.width, options.height,
+            std::vector<FilmPixel>(static_cast<std::size_t>(options.width) * options.height)};
+  const int columns = (options.width + kTile - 1) / kTile;
+  const int tiles = columns * ((options.height + kTile - 1) / kTile);
+  std::mutex reporting;
+  int done = 0;
+  parallelFor(0, tiles, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end && !progress.cancelled(); ++t) {
+      const int tile = static_cast<int>(t);
+      photographer.expose(film, tile % columns * kTile, tile / columns * kTile);
+      const std::lock_guard lock(reporting);
+      progress.report("rendering", static_cast<double>(++done) / tiles);
+    }
+  });
+  if (progress.cancelled()) return {};
+  denoise(film);
+
+  Image8 image{options.width, options.height, 3, {}};
+  image.pixels.resize(film.pixels.size() * 3);
+  parallelFor(0, film.pixels.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const Vec3f shown = filmic(film.pixels[p].light());
+      for (int c = 0; c < 3; ++c) image.pixels[3 * p + c] = linearToSrgb8(shown[c]);
+    }
+  });
+  return image;
+}
+
+}  // namespace exemplar

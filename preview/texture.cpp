@@ -1,0 +1,51 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "preview/texture.h"
+
+#include <cmath>
+
+#include "mesh/color.h"
+
+namespace exemplar {
+namespace {
+
+// Which texels stand on both sides of coordinate t, and how far towards the second.
+struct Between {
+  int first, second;
+  float share;
+};
+
+Between between(float t, int size) {
+  const float wrapped = t - std::floor(t);  // 0..1; 1 only by rounding
+  const float place = wrapped * static_cast<float>(size) - 0.5f;
+  const float below = std::floor(place);
+  const int first = (static_cast<int>(below) + size) % size;
+  return {first, (first + 1) % size, place - below};
+}
+
+}  // namespace
+
+ColorTexture::ColorTexture(const Texture& texture)
+    : image_(decodeImage(texture.bytes, texture.name)) {}
+
+Vec3f ColorTexture::texel(int x, int y) const {
+  const std::uint8_t* p = image_.at(x, y);
+  if (image_.channels < 3) {
+    const float grey = srgb8ToLinear(p[0]);
+    return {grey, grey, grey};
+  }
+  return {srgb8ToLinear(p[0]), srgb8ToLinear(p[1]), srgb8ToLinear(p[2])};
+}
+
+Vec3f ColorTexture::at(const Vec2f& uv) const {
+  const bool finite = std::isfinite(uv.x) && std::isfinite(uv.y);
+  const Between x = between(finite ? uv.x : 0, image_.width);
+  const Between y = between(finite ? -uv.y : 0, image_.height);  // rows come from the top
+  const Vec3f upper = texel(x.first, y.first) * (1 - x.share) + texel(x.second, y.first) * x.share;
+  const Vec3f lower =
+      texel(x.first, y.second) * (1 - x.share) + texel(x.second, y.second) * x.share;
+  return upper * (1 - y.share) + lower * y.share;
+}
+
+}  // namespace exemplar
