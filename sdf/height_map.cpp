@@ -171,7 +171,7 @@ DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& 
         for (Vec3d& corner : t) corner = field.index(corner);
         triangles.push_back(t);
       }
-  sampleDistances(TriangleTree(std::move(triangles)), options.halfWidth, field.values);
+  sampleDistances(TriangleTree(std::move(triangles)), options.halfWidth, {}, field.values);
 
   const Vec3i n = field.size();
   parallelFor(0, static_cast<std::size_t>(n.y), 1, [&](std::size_t j0, std::size_t j1) {

@@ -14,6 +14,11 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "sdf/narrow_band.h"
+#include "sdf/opening_caps.h"
+#include "sdf/ray_parity.h"
+#include "sdf/sample_distances.h"
+#include "sdf/solid_surface.h"
+#include "sdf/triangle_soup.h"
 #include "sdf/triangle_tree.h"
 
 namespace exemplar {
@@ -68,53 +73,57 @@ Frame frameFor(const TriangleMesh& mesh, const MeshToSdfOptions& options) {
   return {box.min + Vec3d{start, start, start}, h, cast<int>(size)};
 }
 
-// Calls body(low, high) for each block of the samples, in parallel: [low, high), at most 8 a side.
-template <class Body>
-void forBlocks(const Vec3i& size, const Body& body) {
-  constexpr int kSide = 8;
-  const Vec3i blocks{(size.x + kSide - 1) / kSide, (size.y + kSide - 1) / kSide,
-                     (size.z + kSide - 1) / kSide};
-  parallelFor(0, static_cast<std::size_t>(volume(blocks)), 1, [&](std::size_t b0, std::size_t b1) {
-    for (std::size_t b = b0; b < b1; ++b) {
-      const std::size_t nx = blocks.x, ny = blocks.y;
-      const Vec3i low = Vec3i{static_cast<int>(b % nx), static_cast<int>(b / nx % ny),
-                              static_cast<int>(b / (nx * ny))} *
-                        kSide;
-      body(low, min(low + Vec3i{kSide, kSide, kSide}, size));
-    }
-  });
+// The samples' distances in voxels from `surface`, up to `limit`. Where nothing bounds a solid
+// (sheets without thickness alone) and no limit is set, the distance is that to the far end of the
+// box.
+void measure(const TriangleTree& surface, double limit, Array3D<float>& distances) {
+  if (surface.count() == 0) limit = std::min(limit, length(cast<double>(distances.size())));
+  sampleDistances(surface, limit, {}, distances);
 }
 
-// Visits the samples of a block to and fro, so that each one is next to the one before.
-template <class Visit>
-void serpentine(const Vec3i& low, const Vec3i& high, const Visit& visit) {
-  bool backJ = false, backI = false;
-  for (int k = low.z; k < high.z; ++k, backJ = !backJ)
-    for (int b = low.y; b < high.y; ++b, backI = !backI) {
-      const int j = backJ ? high.y - 1 - (b - low.y) : b;
-      for (int a = low.x; a < high.x; ++a) visit(Vec3i{backI ? high.x - 1 - (a - low.x) : a, j, k});
-    }
-}
-
-// The distance of each sample from the surface in voxels, exact up to `limit`.
-void measureDistances(const TriangleTree& surface, double limit, Array3D<float>& distances) {
+// Sets `inside` from a test whose answer only changes across the surface that `distances` (exact
+// up to 2 voxels) are measured from: asked once a block and where the surface may lie between
+// neighbours.
+template <class Test>
+void spreadSigns(const Test& test, const Array3D<float>& distances, Array3D<std::uint8_t>& inside) {
   forBlocks(distances.size(), [&](const Vec3i& low, const Vec3i& high) {
-    const Vec3d middle = (cast<double>(low) + cast<double>(high) - Vec3d{1, 1, 1}) * 0.5;
-    const double radius = length(middle - cast<double>(low));
-    if (limit < kInfinity && surface.distance(middle, limit + radius) >= limit + radius) {
-      for (int k = low.z; k < high.z; ++k)
-        for (int j = low.y; j < high.y; ++j)
-          for (int i = low.x; i < high.x; ++i) distances(i, j, k) = static_cast<float>(limit);
-      return;
-    }
-    // A step of one voxel changes the distance by at most one: a tight bound to search within.
-    double bound = kInfinity;
+    double before = -kInfinity;
+    bool in = false;
     serpentine(low, high, [&](const Vec3i& ijk) {
-      const double d = surface.distance(cast<double>(ijk), std::min(limit, bound));
-      distances[ijk] = static_cast<float>(d);
-      bound = d < limit ? d + 1.0001 : kInfinity;
+      // A surface that crosses the step is as near to both ends together as the step is long. Half
+      // a voxel on top covers what cutting crossing triangles into pieces may have lost.
+      const double d = distances[ijk];
+      if (before + d <= 1.5) in = test.inside(cast<double>(ijk));
+      before = d;
+      inside[ijk] = in;
     });
   });
+}
+
+// The solid of a soup with openings: its sign has to be asked everywhere, and where it changes off
+// the triangles, the caps of the openings are part of the surface.
+void measureOpen(const SolidTest& solid, std::vector<Corners> triangles, double limit,
+                 Array3D<float>& distances, Array3D<std::uint8_t>& inside) {
+  // Caps beside the box count as well, as far as they matter to most bands.
+  constexpr double kBeside = 4;
+  const int pad = 1 + static_cast<int>(std::ceil(std::min(limit, kBeside)));
+  const Vec3i low{-pad, -pad, -pad};
+  const Vec3i size = distances.size() - low * 2;
+  Array3D<std::uint8_t> in(size);
+  forBlocks(size, [&](const Vec3i& first, const Vec3i& end) {
+    serpentine(first, end,
+               [&](const Vec3i& ijk) { in[ijk] = solid.inside(cast<double>(low + ijk)); });
+  });
+  {
+    Array3D<float> near(size);
+    sampleDistances(TriangleTree(triangles), 2, low, near);
+    const std::vector<Corners> caps = openingCaps(solid, low, in, near);
+    triangles.insert(triangles.end(), caps.begin(), caps.end());
+  }
+  forBlocks(distances.size(), [&](const Vec3i& first, const Vec3i& end) {
+    serpentine(first, end, [&](const Vec3i& ijk) { inside[ijk] = in[ijk - low]; });
+  });
+  measure(TriangleTree(std::move(triangles)), limit, distances);
 }
 
 }  // namespace
@@ -123,29 +132,49 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
                         const Progress& progress) {
   validate(mesh, "mesh");
   const Frame frame = frameFor(mesh, options);
-  std::vector<Corners> triangles(mesh.triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int c = 0; c < 3; ++c) triangles[t][c] = frame.index(mesh.positions[mesh.triangles[t][c]]);
-  const TriangleTree tree(std::move(triangles));
-  Array3D<float> values(frame.size);
-  progress.report("distance", 0);
-  // Signs need to see two voxels far.
-  measureDistances(tree, std::max(options.halfWidth, 2.0), values);
-  progress.report("sign", 0.5);
-  forBlocks(frame.size, [&](const Vec3i& low, const Vec3i& high) {
-    double before = -kInfinity;
-    bool inside = false;
-    serpentine(low, high, [&](const Vec3i& ijk) {
-      float& value = values[ijk];
-      // The surface crosses the step from the sample before only if both are near.
-      if (before + value <= 1.5) inside = std::abs(tree.windingNumber(cast<double>(ijk))) > 0.5;
-      before = value;
-      const double d = std::min<double>(value, options.halfWidth) * frame.voxelSize;
-      value = static_cast<float>(inside ? -d : d);
-    });
+  progress.report("reading the mesh", 0);
+  const TriangleSoup soup = makeSoup(mesh, frame.origin, frame.voxelSize);
+  SignSource source = options.sign;
+  if (source == SignSource::Automatic) {
+    source = soup.even && !soup.closed ? SignSource::RayParity : SignSource::WindingNumber;
+  }
+  if (progress.cancelled()) return {};
+
+  Array3D<float> distances(frame.size);
+  Array3D<std::uint8_t> inside(frame.size);
+  const double limit = std::max(options.halfWidth, 2.0);  // signs look 2 voxels far
+  progress.report("finding the surface", 0.1);
+  if (source == SignSource::WindingNumber) {
+    const SolidTest solid(soup);
+    std::vector<Corners> bounding = boundingTriangles(soup, solid, frame.size, limit + 4);
+    if (progress.cancelled()) return {};
+    progress.report("measuring distances", 0.4);
+    if (soup.closed) {
+      measure(TriangleTree(std::move(bounding)), limit, distances);
+      spreadSigns(solid, distances, inside);
+    } else {
+      measureOpen(solid, std::move(bounding), limit, distances, inside);
+    }
+  } else {
+    std::vector<Corners> corners(soup.triangles.size());
+    for (std::size_t t = 0; t < corners.size(); ++t)
+      for (int c = 0; c < 3; ++c) corners[t][c] = soup.points[soup.triangles[t][c]];
+    progress.report("measuring distances", 0.4);
+    if (source == SignSource::Flood) inside = floodedInside(corners, frame.size);
+    measure(TriangleTree(std::move(corners)), limit, distances);
+    if (source == SignSource::RayParity) spreadSigns(ParityTest(soup), distances, inside);
+  }
+
+  const auto values = distances.values();
+  const auto signs = inside.values();
+  parallelFor(0, values.size(), 1 << 14, [&](std::size_t b, std::size_t e) {
+    for (std::size_t s = b; s < e; ++s) {
+      const double d = std::min<double>(values[s], options.halfWidth) * frame.voxelSize;
+      values[s] = static_cast<float>(signs[s] ? -d : d);
+    }
   });
-  progress.report("sign", 1);
-  return {std::move(values), frame.voxelSize, frame.origin,
+  progress.report("measuring distances", 1);
+  return {std::move(distances), frame.voxelSize, frame.origin,
           static_cast<float>(options.halfWidth * frame.voxelSize)};
 }
 

@@ -128,7 +128,7 @@ DistanceField redistance(const DistanceField& field, const RedistanceOptions& op
   const double limit =
       surface.count() == 0 ? std::min(options.halfWidth, diagonal) : options.halfWidth;
   progress.report("redistancing", 0.3);
-  sampleDistances(surface, limit, result.values);
+  sampleDistances(surface, limit, {}, result.values);
   const auto before = field.values.values();
   const auto values = result.values.values();
   parallelFor(0, values.size(), 1 << 14, [&](std::size_t b, std::size_t e) {

@@ -42,9 +42,10 @@ void serpentine(const Vec3i& low, const Vec3i& high, const Visit& visit) {
   }
 }
 
-/// Sets each sample (i, j, k) to the distance of that point from the surface where it is less than
-/// `limit`, else to `limit`, which may be infinite. Exact; about 1 microsecond for each sample
+/// Sets each sample ijk to the distance of the point low + ijk from the surface where it is less
+/// than `limit`, else to `limit`, which may be infinite. Exact; about 1 microsecond for each sample
 /// within the limit, far blocks of samples are skipped at once.
-void sampleDistances(const TriangleTree& surface, double limit, Array3D<float>& distances);
+void sampleDistances(const TriangleTree& surface, double limit, const Vec3i& low,
+                     Array3D<float>& distances);
 
 }  // namespace exemplar

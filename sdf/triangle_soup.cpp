@@ -1,0 +1,185 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "sdf/triangle_soup.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace exemplar {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+// One side of a triangle, as an edge from its lower to its higher point.
+struct Side {
+  std::uint32_t low, high;
+  std::uint32_t triangle;
+  std::uint8_t side;
+  bool upwards;  // the triangle runs from low to high
+
+  bool sameEdge(const Side& o) const { return low == o.low && high == o.high; }
+  bool operator<(const Side& o) const {
+    return std::tie(low, high, triangle, side) < std::tie(o.low, o.high, o.triangle, o.side);
+  }
+};
+
+std::vector<Side> sortedSides(const std::vector<Triangle>& triangles) {
+  std::vector<Side> sides(triangles.size() * 3);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (std::uint8_t s = 0; s < 3; ++s) {
+      const std::uint32_t a = triangles[t][s], b = triangles[t][(s + 1) % 3];
+      sides[3 * std::size_t{t} + s] = {std::min(a, b), std::max(a, b), t, s, a < b};
+    }
+  tbb::parallel_sort(sides.begin(), sides.end());  // the keys are total
+  return sides;
+}
+
+// Calls visit(begin, end) for the sides of each edge.
+template <class Visit>
+void forEdges(const std::vector<Side>& sides, const Visit& visit) {
+  for (std::size_t b = 0, e = 0; b < sides.size(); b = e) {
+    while (e < sides.size() && sides[e].sameEdge(sides[b])) ++e;
+    visit(b, e);
+  }
+}
+
+// The points with equal ones joined; `indices` becomes each vertex's point.
+std::vector<Vec3d> joinPoints(const TriangleMesh& mesh, const Vec3d& origin, double scale,
+                              std::vector<std::uint32_t>& indices) {
+  const auto& positions = mesh.positions;
+  std::vector<std::uint32_t> order(positions.size());
+  for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = v;
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3d &p = positions[a], &q = positions[b];
+    return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
+  };
+  tbb::parallel_sort(order.begin(), order.end(), before);
+  indices.resize(positions.size());
+  std::vector<Vec3d> points;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Vec3d& p = positions[order[i]];
+    if (i == 0 || !(p == positions[order[i - 1]])) points.push_back((p - origin) / scale);
+    indices[order[i]] = static_cast<std::uint32_t>(points.size() - 1);
+  }
+  return points;
+}
+
+// Leaves out triangles without area, and of equal ones all but what is left when opposite ones
+// have cancelled.
+void dropDegenerateAndRepeated(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) {
+  struct Keyed {
+    Triangle key;  // the corners, sorted
+    std::uint32_t triangle;
+    bool even;  // an even permutation of them
+    bool operator<(const Keyed& o) const {
+      return std::tie(key, triangle) < std::tie(o.key, o.triangle);
+    }
+  };
+  std::vector<Keyed> keyed;
+  keyed.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles[t];
+    if (a == b || b == c || c == a) continue;
+    const Vec3d normal = cross(points[b] - points[a], points[c] - points[a]);
+    if (!(dot(normal, normal) > 0)) continue;
+    Keyed k{{a, b, c}, t, ((a < b) + (b < c) + (c < a)) == 2};
+    std::sort(k.key.begin(), k.key.end());
+    keyed.push_back(k);
+  }
+  tbb::parallel_sort(keyed.begin(), keyed.end());
+  std::vector<std::uint32_t> kept;
+  for (std::size_t b = 0, e = 0; b < keyed.size(); b = e) {
+    int net = 0;
+    for (; e < keyed.size() && keyed[e].key == keyed[b].key; ++e) net += keyed[e].even ? 1 : -1;
+    if (net == 0) continue;
+    std::size_t k = b;
+    while (keyed[k].even != (net > 0)) ++k;
+    kept.push_back(keyed[k].triangle);
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<Triangle> result(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) result[i] = triangles[kept[i]];
+  triangles = std::move(result);
+}
+
+// Turns the triangles of each part that is connected across edges of two to face one way, unless
+// the part is one-sided.
+void orient(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) {
+  constexpr std::uint32_t kNone = TriangleSoup::kNone;
+  std::vector<std::array<std::uint32_t, 3>> across(triangles.size(), {kNone, kNone, kNone});
+  std::vector<std::array<bool, 3>> turned(triangles.size());  // the one across faces the other way
+  bool any = false;
+  const std::vector<Side> sides = sortedSides(triangles);
+  forEdges(sides, [&](std::size_t b, std::size_t e) {
+    if (e - b != 2) return;
+    const Side &p = sides[b], &q = sides[b + 1];
+    across[p.triangle][p.side] = q.triangle;
+    across[q.triangle][q.side] = p.triangle;
+    turned[p.triangle][p.side] = turned[q.triangle][q.side] = p.upwards == q.upwards;
+    any |= p.upwards == q.upwards;
+  });
+  if (!any) return;
+  std::vector<std::int8_t> way(triangles.size(), 0);  // 1 as it is, -1 turned, 0 not reached
+  std::vector<std::uint32_t> part;
+  for (std::uint32_t seed = 0; seed < triangles.size(); ++seed) {
+    if (way[seed]) continue;
+    part.assign(1, seed);
+    way[seed] = 1;
+    bool twoSided = true;
+    double balance = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const std::uint32_t t = part[i];
+      const auto& [a, b, c] = triangles[t];
+      balance += way[t] * length(cross(points[b] - points[a], points[c] - points[a]));
+      for (int s = 0; s < 3; ++s) {
+        const std::uint32_t u = across[t][s];
+        if (u == kNone) continue;
+        const auto wanted = static_cast<std::int8_t>(turned[t][s] ? -way[t] : way[t]);
+        if (way[u] == 0) {
+          way[u] = wanted;
+          part.push_back(u);
+        } else if (way[u] != wanted) {
+          twoSided = false;
+        }
+      }
+    }
+    if (!twoSided) continue;
+    for (const std::uint32_t t : part)
+      if ((way[t] > 0) != (balance >= 0)) std::swap(triangles[t][1], triangles[t][2]);
+  }
+}
+
+}  // namespace
+
+TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale) {
+  TriangleSoup soup;
+  std::vector<std::uint32_t> indices;
+  soup.points = joinPoints(mesh, origin, scale, indices);
+  soup.triangles = mesh.triangles;
+  for (auto& t : soup.triangles)
+    for (std::uint32_t& v : t) v = indices[v];
+  dropDegenerateAndRepeated(soup.points, soup.triangles);
+  orient(soup.points, soup.triangles);
+  const std::vector<Side> sides = sortedSides(soup.triangles);
+  soup.closed = soup.even = true;
+  constexpr std::uint32_t kNone = TriangleSoup::kNone;
+  soup.neighbours.assign(soup.triangles.size(), {kNone, kNone, kNone});
+  forEdges(sides, [&](std::size_t b, std::size_t e) {
+    int net = 0;
+    for (std::size_t i = b; i < e; ++i) net += sides[i].upwards ? 1 : -1;
+    soup.closed &= net == 0;
+    soup.even &= (e - b) % 2 == 0;
+    if (e - b == 2 && net == 0) {
+      soup.neighbours[sides[b].triangle][sides[b].side] = sides[b + 1].triangle;
+      soup.neighbours[sides[b + 1].triangle][sides[b + 1].side] = sides[b].triangle;
+    }
+  });
+  return soup;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,38 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+#include "mesh/triangle_mesh.h"
+
+namespace exemplar {
+
+/// The triangles of a mesh, made ready for the question what they enclose: vertices at equal
+/// positions are one (files split them at seams), triangles without area are left out, and of equal
+/// ones those that face each other cancel and the others count once. Connected triangles that meet
+/// two at an edge are turned to face the same way, that of the larger area, where that is possible.
+struct TriangleSoup {
+  std::vector<Vec3d> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// Every edge is run through as often one way as the other: the triangles are the boundary of
+  /// something, and their winding number is an integer off them.
+  bool closed = false;
+  /// Every edge has an even number of triangles, however they face: rays from a point agree on the
+  /// parity of their crossings.
+  bool even = false;
+  /// For each triangle and side (corner s to s + 1) the triangle across it, where those two alone
+  /// meet there and face the same way; else `kNone`.
+  std::vector<std::array<std::uint32_t, 3>> neighbours;
+
+  static constexpr std::uint32_t kNone = 0xffffffff;
+};
+
+/// O(n log n) for n triangles; positions are (xyz - origin) / scale.
+TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale);
+
+}  // namespace exemplar
