@@ -1,0 +1,265 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/blocks.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "sdf/resample.h"
+#include "search/linear_scan.h"
+#include "search/search_tree.h"
+
+namespace exemplar {
+namespace {
+
+constexpr std::uint32_t kSeedStream = 0xb10c, kStartStream = 0xb10d;
+
+/// The example as the search sees it: quantized, and at least a block thick along each axis.
+Array3D<std::uint8_t> searchable(const DistanceField& example, double truncation, int block) {
+  const auto quantized =
+      quantize(example, static_cast<float>(truncation * example.voxelSize)).levels;
+  Array3D<std::uint8_t> source(max(quantized.size(), Vec3i{block, block, block}));
+  for (std::size_t s = 0; s < source.count(); ++s) {
+    source.values()[s] = quantized[quantized.clamped(source.ijk(s))];
+  }
+  return source;
+}
+
+/// One iteration of section 5.1 at one level of resolution.
+///
+/// The target is cut into cells half a block wide. A block covers two cells a side, and is where
+/// its last cell is made; cells with an index 0 are made by the first blocks.
+class Pass {
+ public:
+  Pass(const SearchTree& tree, const Vec3i& size, const BlocksOptions& options)
+      : tree_(tree),
+        source_(tree.pyramid().averages(tree.droppedLevels())),
+        step_(1 << tree.droppedLevels()),
+        half_(tree.blockSize() / 2),
+        options_(options) {
+    for (int axis = 0; axis < 3; ++axis) {
+      cells_[axis] = std::max(2, (size[axis] + half_ - 1) / half_);
+    }
+    origins_ = Array3D<Vec3i>(cells_ * half_);
+    target_ = Array3D<std::uint8_t>(origins_.size());
+    made_ = Array3D<std::uint8_t>(origins_.size());
+    if (options.search == BlockSearch::Scan) {
+      lattice_ = Array3D<std::uint8_t>((source_.size() - Vec3i{1, 1, 1}) / step_ + Vec3i{1, 1, 1});
+      for (std::size_t s = 0; s < lattice_.count(); ++s) {
+        lattice_.values()[s] = source_[lattice_.ijk(s) * step_];
+      }
+    }
+  }
+
+  /// Seeds the target with random samples of the example, or with nothing.
+  void seedRandomly() {
+    const Random random(options_.seed, kSeedStream);
+    parallelFor(0, target_.count(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        const auto n = static_cast<std::uint32_t>(source_.count());
+        target_.values()[s] = source_.values()[random.below(n, s)];
+      }
+    });
+    masked_ = options_.seeding == BlockSeeding::Masked;
+  }
+
+  /// Seeds the target with the result of the iteration before, of half the resolution.
+  void seedWith(const Array3D<Vec3i>& coarser) {
+    for (std::size_t s = 0; s < target_.count(); ++s) {
+      const Vec3i x = target_.ijk(s);
+      const Vec3i parent = coarser.clamped({x.x / 2, x.y / 2, x.z / 2});
+      const Vec3i within = min(max(x - parent * 2, Vec3i{0, 0, 0}), Vec3i{1, 1, 1});
+      origins_.values()[s] = source_.clamped(coarser[parent] + within * step_);
+      target_.values()[s] = source_[origins_.values()[s]];
+    }
+  }
+
+  /// Makes every block, in waves of blocks that do not depend on each other: a block reads only
+  /// what blocks made whose indices add up to less. Returns false when cancelled.
+  bool run(const std::string& stage, const Progress& progress) {
+    const Vec3i blocks = cells_ - Vec3i{1, 1, 1};
+    const int waves = blocks.x + blocks.y + blocks.z - 2;
+    const double all = static_cast<double>(volume(blocks));
+    std::vector<Vec3i> wave;
+    for (int w = 0; w < waves; ++w) {
+      wave.clear();
+      for (int k = 0; k < blocks.z; ++k) {
+        for (int j = 0; j < blocks.y; ++j) {
+          const int i = w - j - k;
+          if (i >= 0 && i < blocks.x) wave.push_back({i, j, k});
+        }
+      }
+      parallelFor(0, wave.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end && !progress.cancelled(); ++n) make(wave[n]);
+      });
+      matches_ += static_cast<std::int64_t>(wave.size());
+      if (progress.cancelled()) return false;
+      progress.report(stage, static_cast<double>(matches_) / all);
+    }
+    return true;
+  }
+
+  const Array3D<Vec3i>& origins() const { return origins_; }
+  std::int64_t matches() const { return matches_; }
+
+ private:
+  /// Matches the block at `block` (in cells), and copies what was not synthesized.
+  void make(const Vec3i& block) {
+    const Vec3i first = block * half_;
+    const int side = 2 * half_;
+    BlockQuery<std::uint8_t> query{Array3D<std::uint8_t>({side, side, side}), {}};
+    if (masked_) query.known = Array3D<std::uint8_t>(query.samples.size());
+    bool anyKnown = !masked_;
+    for (std::size_t s = 0; s < query.samples.count(); ++s) {
+      const Vec3i x = first + query.samples.ijk(s);
+      query.samples.values()[s] = target_[x];
+      if (masked_) {
+        query.known.values()[s] = made_[x];
+        anyKnown = anyKnown || made_[x];
+      }
+    }
+    const Vec3i match = anyKnown ? bestMatch(query) : randomPosition(block);
+    for (std::size_t s = 0; s < query.samples.count(); ++s) {
+      const Vec3i within = query.samples.ijk(s);
+      const Vec3i x = first + within;
+      if (made_[x]) continue;
+      made_[x] = 1;
+      origins_[x] = match + within * step_;
+      target_[x] = source_[origins_[x]];
+    }
+  }
+
+  /// The best block of the subsampled example, by its first fine sample.
+  Vec3i bestMatch(const BlockQuery<std::uint8_t>& query) const {
+    return options_.search == BlockSearch::Scan
+               ? linearScan(lattice_, query).position * step_
+               : tree_.findBest(query, {.positionStride = step_}).position;
+  }
+
+  Vec3i randomPosition(const Vec3i& block) const {
+    const Random random(options_.seed, kStartStream);
+    const Vec3i last = source_.size() - Vec3i{1, 1, 1} * ((2 * half_ - 1) * step_ + 1);
+    const std::size_t key = origins_.index(block * half_);
+    Vec3i position;
+    for (int axis = 0; axis < 3; ++axis) {
+      position[axis] = static_cast<int>(random.below(last[axis] / step_ + 1, key, axis)) * step_;
+    }
+    return position;
+  }
+
+  const SearchTree& tree_;
+  const Array3D<std::uint8_t>& source_;  ///< averages of the level's cells, at every fine shift
+  Array3D<std::uint8_t> lattice_;        ///< the subsampled example itself, for scanning
+  int step_, half_;
+  const BlocksOptions& options_;
+  bool masked_ = false;
+  Vec3i cells_;
+  Array3D<Vec3i> origins_;  ///< first fine sample of the cell that was copied
+  Array3D<std::uint8_t> target_;
+  Array3D<std::uint8_t> made_;
+  std::int64_t matches_ = 0;
+};
+
+void check(const DistanceField& example, const BlocksOptions& options) {
+  const auto fail = [](const std::string& what) { throw InputError(what); };
+  const Vec3i n = example.size();
+  const int longest = std::max({n.x, n.y, n.z});
+  if (volume(n) == 0) fail("the example has no samples");
+  if (longest > 32767) fail("the example is longer than 32,767 samples");
+  for (int axis = 0; axis < 3; ++axis) {
+    if (options.size[axis] < 1) fail("the result must have at least one sample along each axis");
+  }
+  if (options.block < 2 || options.block > 256 || (options.block & (options.block - 1))) {
+    fail("block " + std::to_string(options.block) + ": expected a power of two, 2 to 256");
+  }
+  if (options.block > longest) {
+    fail("block " + std::to_string(options.block) + ": the example is only " +
+         std::to_string(longest) + " samples long; use a smaller block or a higher resolution");
+  }
+  if (options.iterations < 1 || options.iterations > 8) {
+    fail("iterations " + std::to_string(options.iterations) + ": expected 1 to 8");
+  }
+  if (!(options.truncation > 0)) fail("truncation must be above 0");
+  // The tree, and for each sample of the result its value, its origins and the field.
+  requireMemory(60.0 * static_cast<double>(volume(max(n, Vec3i{1, 1, 1} * (2 * options.block)))) +
+                    40.0 * static_cast<double>(volume(options.size)),
+                "synthesis at this size", "use a lower resolution or a smaller scale");
+}
+
+/// The block's side in the iteration that works on cells of 2^level samples, in finest samples: as
+/// in the last one, and twice that in the first (coarsest), unless that would be more than half of
+/// the example.
+int blockSide(const DistanceField& example, const BlocksOptions& options, int level) {
+  const Vec3i n = example.size();
+  const int longest = std::max({n.x, n.y, n.z});
+  const bool first = level == options.iterations - 1 && options.iterations > 1;
+  return first && 4 * options.block <= longest ? 2 * options.block : options.block;
+}
+
+/// The number of iterations that the block's size permits: each needs blocks of two samples a side.
+int usableIterations(const BlocksOptions& options) {
+  int iterations = options.iterations;
+  while (iterations > 1 && options.block >> (iterations - 1) < 2) --iterations;
+  return iterations;
+}
+
+}  // namespace
+
+SynthesisResult synthesizeBlocks(const DistanceField& example, const BlocksOptions& given,
+                                 const Progress& progress) {
+  check(example, given);
+  BlocksOptions options = given;
+  options.iterations = usableIterations(options);
+
+  SynthesisResult result;
+  Array3D<Vec3i> origins;
+  std::optional<SearchTree> tree;
+  for (int level = options.iterations - 1; level >= 0; --level) {
+    const std::string stage = "matching blocks, level " +
+                              std::to_string(options.iterations - level) + " of " +
+                              std::to_string(options.iterations);
+    progress.report(stage, 0);
+    const int side = blockSide(example, options, level);
+    if (!tree || tree->blockSize() != side) {
+      tree.emplace(searchable(example, options.truncation, side), side);
+    }
+    const SearchTree coarse = tree->dropLeaves(level);
+    const int cell = 1 << level;
+    Pass pass(coarse,
+              {(options.size.x + cell - 1) / cell, (options.size.y + cell - 1) / cell,
+               (options.size.z + cell - 1) / cell},
+              options);
+    if (origins.empty()) {
+      pass.seedRandomly();
+    } else {
+      pass.seedWith(origins);
+    }
+    const bool done = pass.run(stage, progress);
+    result.matches += pass.matches();
+    origins = pass.origins();
+    if (!done) {
+      result.status = SynthesisStatus::Cancelled;
+      return result;
+    }
+  }
+
+  result.field = example;
+  result.field.values = Array3D<float>(options.size);
+  result.origins = Origins(options.size);
+  for (std::size_t s = 0; s < result.origins.count(); ++s) {
+    const Vec3i origin = example.values.clamped(origins[result.origins.ijk(s)]);
+    result.origins.values()[s] = Origin(origin);
+    result.field.values.values()[s] = example.values[origin];
+  }
+  return result;
+}
+
+}  // namespace exemplar
