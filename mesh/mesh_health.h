@@ -10,7 +10,8 @@
 namespace exemplar {
 
 /// What is sound and unsound about a mesh (measures: "mesh health"). Edges are pairs of vertex
-/// indices: a mesh whose equal positions are not joined counts as open.
+/// indices: a mesh whose equal positions are not joined counts as open. Triangles with two equal
+/// corner indices are counted as degenerate and have no part in the edges.
 struct MeshHealth {
   std::int64_t vertices = 0, triangles = 0;
   std::int64_t boundaryEdges = 0;        ///< edges with one triangle
@@ -18,9 +19,11 @@ struct MeshHealth {
   std::int64_t nonManifoldVertices = 0;  ///< vertices whose triangles form more than one fan
   std::int64_t misorientedEdges = 0;     ///< edges that two triangles run through the same way
   std::int64_t degenerateTriangles = 0;  ///< two equal corners, or zero area
-  std::int64_t selfIntersections = 0;    ///< crossing pairs of triangles that share no vertex
-  std::int64_t components = 0;           ///< connected by shared vertices
-  double signedVolume = 0;               ///< world units cubed; negative where turned inside out
+  /// Crossing pairs of triangles that share no vertex, where the options ask for it. Triangles that
+  /// only touch, or that lie in one plane, do not cross.
+  std::int64_t selfIntersections = 0;
+  std::int64_t components = 0;  ///< connected by shared vertices
+  double signedVolume = 0;      ///< world units cubed; negative where turned inside out
 
   bool closed() const { return boundaryEdges == 0; }
   bool manifold() const { return nonManifoldEdges == 0 && nonManifoldVertices == 0; }
@@ -28,7 +31,7 @@ struct MeshHealth {
 };
 
 struct MeshHealthOptions {
-  bool selfIntersections = false;  ///< count them too; about as slow as the rest times 20
+  bool selfIntersections = false;  ///< count them too; several times as slow as the rest
 };
 
 /// O(n log n) for n triangles; the same at any number of threads.

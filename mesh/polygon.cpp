@@ -59,44 +59,77 @@ bool isConvex(const std::vector<Point>& p) {
   return changes <= 2;
 }
 
-void clipEars(const std::vector<Point>& p, std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  const std::uint32_t n = static_cast<std::uint32_t>(p.size());
-  std::vector<std::uint32_t> next(n), previous(n);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    next[i] = (i + 1) % n;
-    previous[i] = (i + n - 1) % n;
+/// Clips ears in time that grows with the square of the number of corners: clipping one changes
+/// only what its two neighbours are (D. Eberly: "Triangulation by ear clipping", Geometric Tools,
+/// 2002).
+class EarClipper {
+ public:
+  EarClipper(const std::vector<Point>& points, std::vector<std::array<std::uint32_t, 3>>& triangles)
+      : p_(points),
+        triangles_(triangles),
+        next_(points.size()),
+        previous_(points.size()),
+        isReflex_(points.size()),
+        isEar_(points.size()) {}
+
+  void clip() {
+    const std::uint32_t n = static_cast<std::uint32_t>(p_.size());
+    for (std::uint32_t i = 0; i < n; ++i) {
+      next_[i] = (i + 1) % n;
+      previous_[i] = (i + n - 1) % n;
+    }
+    for (std::uint32_t i = 0; i < n; ++i) isReflex_[i] = turnAt(i) < 0;
+    for (std::uint32_t i = 0; i < n; ++i) isEar_[i] = findsEar(i);
+    std::uint32_t i = 0;
+    for (std::uint32_t left = n; left > 3; --left) {
+      i = chooseCorner(i, left);
+      triangles_.push_back({previous_[i], i, next_[i]});
+      const std::uint32_t before = previous_[i], after = next_[i];
+      next_[before] = after;
+      previous_[after] = before;
+      for (const std::uint32_t c : {before, after}) isReflex_[c] = turnAt(c) < 0;
+      for (const std::uint32_t c : {before, after}) isEar_[c] = findsEar(c);
+      // Going on two corners further keeps the triangles from forming one long fan.
+      i = next_[after];
+    }
+    triangles_.push_back({previous_[i], i, next_[i]});
   }
-  const auto isReflex = [&](std::uint32_t i) { return turn(p[previous[i]], p[i], p[next[i]]) < 0; };
-  const auto isEar = [&](std::uint32_t i) {
-    const Point &a = p[previous[i]], &b = p[i], &c = p[next[i]];
+
+ private:
+  double turnAt(std::uint32_t i) const { return turn(p_[previous_[i]], p_[i], p_[next_[i]]); }
+
+  bool findsEar(std::uint32_t i) const {
+    const Point &a = p_[previous_[i]], &b = p_[i], &c = p_[next_[i]];
     if (turn(a, b, c) <= 0) return false;
-    for (std::uint32_t j = next[next[i]]; j != previous[i]; j = next[j]) {
-      const auto same = [&](const Point& q) { return p[j].x == q.x && p[j].y == q.y; };
+    for (std::uint32_t j = next_[next_[i]]; j != previous_[i]; j = next_[j]) {
+      if (!isReflex_[j] || !covers(a, b, c, p_[j])) continue;
       // Corners that touch the ear's own (a hole joined by a bridge) do not stand in its way.
-      if (isReflex(j) && !same(a) && !same(b) && !same(c) && covers(a, b, c, p[j])) return false;
+      const auto same = [&](const Point& q) { return p_[j].x == q.x && p_[j].y == q.y; };
+      if (!same(a) && !same(b) && !same(c)) return false;
     }
     return true;
-  };
-  std::uint32_t i = 0, left = n, tried = 0;
-  while (left > 3) {
-    // After a whole round without an ear the polygon crosses itself or has no area: first a corner
-    // without area goes, then any.
-    const bool flat = tried >= left && turn(p[previous[i]], p[i], p[next[i]]) == 0;
-    if (flat || tried >= 2 * left || (tried < left && isEar(i))) {
-      triangles.push_back({previous[i], i, next[i]});
-      next[previous[i]] = next[i];
-      previous[next[i]] = previous[i];
-      --left;
-      tried = 0;
-      // Going on two corners further keeps the triangles from forming one long fan.
-      i = next[next[i]];
-    } else {
-      ++tried;
-      i = next[i];
-    }
   }
-  triangles.push_back({previous[i], i, next[i]});
-}
+
+  /// The next ear from `i` on. Where there is none the polygon crosses itself or has no area: then
+  /// a corner without area, or else `i`.
+  std::uint32_t chooseCorner(std::uint32_t i, std::uint32_t left) const {
+    std::uint32_t flat = i;
+    bool hasFlat = false;
+    for (std::uint32_t k = 0; k < left; ++k, i = next_[i]) {
+      if (isEar_[i]) return i;
+      if (!hasFlat && turnAt(i) == 0) {
+        flat = i;
+        hasFlat = true;
+      }
+    }
+    return flat;
+  }
+
+  const std::vector<Point>& p_;
+  std::vector<std::array<std::uint32_t, 3>>& triangles_;
+  std::vector<std::uint32_t> next_, previous_;
+  std::vector<char> isReflex_, isEar_;
+};
 
 }  // namespace
 
@@ -113,7 +146,7 @@ bool triangulate(std::span<const Vec3d> corners,
     return true;
   }
   if (corners.size() > kMostCorners) return false;
-  clipEars(points, triangles);
+  EarClipper(points, triangles).clip();
   return true;
 }
 

@@ -14,7 +14,7 @@ namespace exemplar {
 
 /// The most corners of a polygon that is not convex: cutting one takes time that grows with their
 /// number squared.
-constexpr std::size_t kMostCorners = 10'000;
+constexpr std::size_t kMostCorners = 5'000;
 
 /// Cuts a polygon with n >= 3 corners into n - 2 triangles with the same winding; their corners are
 /// indices into `corners`. Concave polygons are cut by clipping ears in the plane across their mean

@@ -28,43 +28,6 @@ Sample meshSample(const char* name, const std::string& ending, std::string bytes
   return {name, std::move(bytes), [ending](std::string_view b) { parse(ending, b); }};
 }
 
-/// A `.glb` with what `formatGlb` does not write: a tree of nodes, sparse and normalized accessors,
-/// strips, a texture transform, data in a URI.
-std::string richGlb() {
-  std::string binary;
-  const auto number = [&](float f) { binary.append(reinterpret_cast<const char*>(&f), 4); };
-  for (const float f : {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}) number(f);  // positions, 48 bytes
-  for (const int i : {0, 1, 2, 3}) binary += static_cast<char>(i);       // indices, 4 bytes
-  for (const int c : {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 9, 9, 9, 128}) {
-    binary += static_cast<char>(c);  // colours, 16 bytes
-  }
-  for (const float f : {0, 0, 1, 0, 0, 1, 1, 1}) number(f);  // texture coordinates, 32 bytes
-  binary += '\2';                                            // a sparse index, padded to 4 bytes
-  binary.append(3, '\0');
-  for (const float f : {0, 1, 2}) number(f);  // and its value, 12 bytes
-  return makeGlb(
-      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,2]}],
-"nodes":[{"children":[1],"translation":[1,2,3],"scale":[1,1,-1]},
-{"mesh":0,"rotation":[0,0.6,0,0.8]},{"mesh":0,"matrix":[2,0,0,0,0,2,0,0,0,0,2,0,5,0,0,1]}],
-"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":2,"TEXCOORD_0":3},"indices":1,"mode":5,
-"material":0},{"attributes":{"POSITION":0},"indices":1,"mode":6}]}],
-"materials":[{"name":"m","pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1],"metallicFactor":0.1,
-"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"offset":[0.5,0],"rotation":1,
-"scale":[2,2]}}}},"emissiveFactor":[1,0,0],"extensions":{"KHR_materials_emissive_strength":
-{"emissiveStrength":4}}}],"textures":[{"source":0}],
-"images":[{"uri":"data:image/png;base64,iVBORw0KGgoAAAANSUhEUg=="}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":1,
-"indices":{"bufferView":4,"componentType":5121},"values":{"bufferView":4,"byteOffset":4}}},
-{"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"},
-{"bufferView":2,"componentType":5121,"normalized":true,"count":4,"type":"VEC4"},
-{"bufferView":3,"byteOffset":0,"componentType":5126,"count":4,"type":"VEC2"}],
-"bufferViews":[{"buffer":0,"byteLength":48,"byteStride":12},{"buffer":0,"byteOffset":48,"byteLength":4},
-{"buffer":0,"byteOffset":52,"byteLength":16},{"buffer":0,"byteOffset":68,"byteLength":32},
-{"buffer":0,"byteOffset":100,"byteLength":16}],
-"buffers":[{"byteLength":116}],"extensionsUsed":["KHR_texture_transform"]})",
-      binary);
-}
-
 std::vector<Sample> samples() {
   TriangleMesh full = fullMesh();
   full.textures[0].name = "t.png";

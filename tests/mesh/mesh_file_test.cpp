@@ -231,6 +231,20 @@ TEST(MeshFile, AnObjWithTexturesDoesNotOverwriteOtherPictures) {
   EXPECT_THAT(readFile(folder / "castle.mtl"), HasSubstr("map_Kd castle_brick_wall.png\n"));
 }
 
+TEST(MeshFile, FindsATextureByNameWhenItsFolderIsAnotherMachines) {
+  const TestFolder folder("far_texture");
+  writeFile(folder / "m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  writeFile(folder / "m.mtl", "newmtl a\nmap_Kd C:\\art\\brick.png\n");
+  EXPECT_TRUE(readMesh(folder / "m.obj").textures.empty()) << "missing is no error";
+  writeFile(folder / "brick.png", "not a picture");
+  EXPECT_TRUE(readMesh(folder / "m.obj").textures.empty());
+  writeFile(folder / "brick.png", tinyPng());
+  const TriangleMesh mesh = readMesh(folder / "m.obj");
+  ASSERT_EQ(mesh.textures.size(), 1u);
+  EXPECT_EQ(mesh.textures[0].name, "brick.png");
+  EXPECT_EQ(mesh.materials[0].baseColorTexture, 0u);
+}
+
 TEST(MeshFile, ObjMaterialsWithOneNameStayApart) {
   TriangleMesh full = fullMesh();
   full.materials[0].name = full.materials[1].name = "line\nbreak";

@@ -58,4 +58,8 @@ std::string format(const std::string& ending, const TriangleMesh& mesh);
 /// A binary glTF file around this JSON and binary chunk, padded as the standard wants it.
 std::string makeGlb(std::string json, std::string binary);
 
+/// A `.glb` with what `formatGlb` does not write: a tree of nodes, sparse and normalized accessors,
+/// strips, a texture transform, data in a URI.
+std::string richGlb();
+
 }  // namespace exemplar

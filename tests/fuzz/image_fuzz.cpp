@@ -1,0 +1,11 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "fuzz_reader.h"
+#include "mesh/image.h"
+
+namespace {
+void read(std::string_view bytes) { exemplar::decodeImage(bytes, "f.png"); }
+}  // namespace
+
+EXEMPLAR_FUZZ_READER(read)

@@ -1,0 +1,16 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "fuzz_reader.h"
+#include "mesh/mesh_formats.h"
+
+namespace {
+void read(std::string_view bytes) {
+  // The file serves as its own material library, and as a picture where it begins like one.
+  exemplar::validate(
+      exemplar::parseObj(bytes, "f.obj", [&](const std::string&) { return std::string(bytes); }),
+      "f.obj");
+}
+}  // namespace
+
+EXEMPLAR_FUZZ_READER(read)

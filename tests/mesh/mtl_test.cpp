@@ -1,0 +1,69 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "mesh/mtl.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace exemplar {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Mtl, NumbersComeBackExactly) {
+  std::vector<MtlMaterial> materials(2);
+  Material& rich = materials[0].material;
+  rich.name = "a b";
+  rich.baseColor = {0.1f, 1 / 3.0f, 1e-7f, 0.3f};
+  rich.metallic = 0.7f;
+  rich.roughness = 0.123f;
+  rich.emission = {12.5f, 0, 1 / 7.0f};
+  materials[0].baseColorFile = "pictures/a b.png";
+  materials[1].material.name = "plain";
+  const std::vector<MtlMaterial> read = parseMtl(formatMtl(materials), "f.mtl");
+  ASSERT_EQ(read.size(), 2u);
+  for (int m = 0; m < 2; ++m) {
+    EXPECT_EQ(read[m].material, materials[m].material);
+    EXPECT_EQ(read[m].baseColorFile, materials[m].baseColorFile);
+  }
+}
+
+TEST(Mtl, SkipsTheOptionsOfMaps) {
+  const auto file = [](const std::string& line) {
+    return parseMtl("newmtl a\nmap_Kd " + line + "\n", "f.mtl")[0].baseColorFile;
+  };
+  EXPECT_EQ(file("wall.png"), "wall.png");
+  EXPECT_EQ(file("two words.png  "), "two words.png");
+  EXPECT_EQ(file("-s 2 2 2 -o 0.5 -clamp on wall.png"), "wall.png");
+  EXPECT_EQ(file("-s 2 wall.png"), "wall.png");
+  EXPECT_EQ(file("-mm 0 1 -bm 0.5 wall.png"), "wall.png");
+  EXPECT_EQ(file("-s"), "");
+}
+
+TEST(Mtl, ReadsOlderConventions) {
+  const auto material = [](const std::string& lines) {
+    return parseMtl("# made by hand\nKd 9 9 9\nnewmtl a\n" + lines, "f.mtl")[0].material;
+  };
+  EXPECT_EQ(material("Tr 0.25\n").baseColor[3], 0.75f);
+  EXPECT_EQ(material("d -halo 0.5\n").baseColor[3], 1.0f);
+  EXPECT_EQ(material("Kd 0.5\n").baseColor[2], 0.5f);
+  EXPECT_EQ(material("Kd spectral file.rfl\n").baseColor[0], 0.8f);
+  EXPECT_EQ(material("Ns 250\n").roughness, 0.5f);
+  EXPECT_EQ(material("Pr 0.25\nNs 0\n").roughness, 0.25f) << "Pr holds, in whatever order";
+  EXPECT_EQ(material("Ns 0\nPr 0.25\n").roughness, 0.25f);
+}
+
+TEST(Mtl, NamesTheLineOfWhatIsWrong) {
+  try {
+    parseMtl("newmtl a\n\nKd 1 red 0\n", "f.mtl");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("f.mtl:3: the diffuse colour should be a number, not 'red'"));
+  }
+}
+
+}  // namespace
+}  // namespace exemplar
