@@ -37,7 +37,9 @@ std::string readMapFile(TextScanner& in) {
     // Scale, offset and turbulence have one to three numbers, the gain of -mm two, others one word.
     int words = vector ? 3 : option == "-mm" ? 2 : 1;
     for (bool first = true; words > 0; --words, first = false) {
-      if (vector && !first && file.find_first_of("0123456789+-.") != 0) break;
+      const std::size_t digit = file.find_first_not_of("+-.");
+      const bool isNumber = digit < file.size() && file[digit] >= '0' && file[digit] <= '9';
+      if (vector && !first && !isNumber) break;
       dropWord();
     }
   }
