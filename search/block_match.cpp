@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "search/query_rows.h"
+#include "search/block_sum.h"
 
 namespace exemplar {
 
@@ -43,7 +43,7 @@ std::int64_t knownSamples(const BlockQuery<Sample>& query) {
 template <class Sample>
 double blockDistance(const Array3D<Sample>& source, const Vec3i& position,
                      const BlockQuery<Sample>& query) {
-  const QueryRows<Sample> rows(query, source.size());
+  const BlockSum<Sample> rows(query, source.size());
   return rows.distance(rows.sum(source.data() + source.index(position),
                                 std::numeric_limits<SquaredSum<Sample>>::max()));
 }

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "search/query_rows.h"
+#include "search/block_sum.h"
 
 namespace exemplar {
 
@@ -18,7 +18,7 @@ namespace {
 // Calls `take(index, sum)` for every block, in the order of their indices, whose sum is at most the
 // limit; `take` returns the limit for the blocks that follow.
 template <class Sample, class Take>
-void scanBlocks(const Array3D<Sample>& source, const QueryRows<Sample>& rows, const Vec3i& block,
+void scanBlocks(const Array3D<Sample>& source, const BlockSum<Sample>& rows, const Vec3i& block,
                 SquaredSum<Sample> limit, const Take& take) {
   const Vec3i positions = blockPositions(source.size(), block);
   for (int k = 0; k < positions.z; ++k)
@@ -43,7 +43,7 @@ double below(double sum) { return std::nextafter(sum, -1.0); }
 template <class Sample>
 std::vector<BlockMatch> matches(
     const std::vector<std::pair<SquaredSum<Sample>, std::size_t>>& found,
-    const Array3D<Sample>& source, const QueryRows<Sample>& rows) {
+    const Array3D<Sample>& source, const BlockSum<Sample>& rows) {
   std::vector<BlockMatch> result;
   for (const auto& [sum, index] : found)
     result.push_back({source.ijk(index), rows.distance(sum), 0});
@@ -54,7 +54,7 @@ std::vector<BlockMatch> matches(
 
 template <class Sample>
 BlockMatch linearScan(const Array3D<Sample>& source, const BlockQuery<Sample>& query) {
-  const QueryRows<Sample> rows(query, source.size());
+  const BlockSum<Sample> rows(query, source.size());
   BlockMatch best;
   scanBlocks(source, rows, query.samples.size(), kNoLimit<Sample>,
              [&](std::size_t index, SquaredSum<Sample> sum) {
@@ -68,7 +68,7 @@ template <class Sample>
 std::vector<BlockMatch> linearScanNearest(const Array3D<Sample>& source,
                                           const BlockQuery<Sample>& query, int count) {
   if (count < 1) throw InputError("the number of blocks to find must be at least 1");
-  const QueryRows<Sample> rows(query, source.size());
+  const BlockSum<Sample> rows(query, source.size());
   // The nearest so far, the farthest of them on top.
   std::vector<std::pair<SquaredSum<Sample>, std::size_t>> heap;
   scanBlocks(source, rows, query.samples.size(), kNoLimit<Sample>,
@@ -92,7 +92,7 @@ std::vector<BlockMatch> linearScanWithin(const Array3D<Sample>& source,
                                          int limit) {
   if (!(tolerance >= 0)) throw InputError("the tolerance of a match must be at least 0");
   if (limit < 1) throw InputError("the number of blocks to find must be at least 1");
-  const QueryRows<Sample> rows(query, source.size());
+  const BlockSum<Sample> rows(query, source.size());
   SquaredSum<Sample> smallest = kNoLimit<Sample>;
   scanBlocks(source, rows, query.samples.size(), smallest,
              [&](std::size_t, SquaredSum<Sample> sum) { return below(smallest = sum); });

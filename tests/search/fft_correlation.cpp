@@ -10,7 +10,7 @@
 #include <cstring>
 #include <limits>
 
-#include "search/query_rows.h"
+#include "search/block_sum.h"
 
 namespace exemplar {
 
@@ -84,7 +84,7 @@ BlockMatch FftCorrelation::findBest(const BlockQuery<std::uint8_t>& query) {
   Impl& m = *impl_;
   const Vec3i n = m.source.size(), size = query.samples.size();
   const Vec3i positions = blockPositions(n, size);
-  const QueryRows<std::uint8_t> rows(query, n);
+  const BlockSum<std::uint8_t> rows(query, n);
   const float scale = 1.0f / static_cast<float>(m.source.count());
 
   double queryNorm = 0, constant = 0;

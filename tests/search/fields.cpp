@@ -110,19 +110,56 @@ Array3D<float> terrain(int n, std::uint64_t seed) {
     }
     return 0.45 * n + h;
   };
-  std::vector<double> heights(static_cast<std::size_t>(n) * n), slopes(heights.size());
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const double x = i + 0.5, y = j + 0.5, h = height(x, y);
-      const double dx = height(x + 0.5, y) - height(x - 0.5, y);
-      const double dy = height(x, y + 0.5) - height(x, y - 0.5);
-      heights[static_cast<std::size_t>(j) * n + i] = h;
-      slopes[static_cast<std::size_t>(j) * n + i] = std::sqrt(1 + dx * dx + dy * dy);
+  // Columns of the surface every half sample, and for each sample the nearest of their tops, found
+  // by passing it on from neighbour to neighbour.
+  const int m = 2 * n;
+  std::vector<float> heights(static_cast<std::size_t>(m) * m);
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < m; ++i)
+      heights[static_cast<std::size_t>(j) * m + i] =
+          static_cast<float>(height((i + 0.5) / 2, (j + 0.5) / 2));
+  struct Nearest {
+    std::int16_t i, j;
+    float squared;
+  };
+  Array3D<Nearest> nearest({n, n, n});
+  const auto offer = [&](Nearest& best, const Vec3i& p, int i, int j) {
+    if (i < 0 || j < 0 || i >= m || j >= m) return;
+    const float dx = static_cast<float>(p.x) + 0.5f - (static_cast<float>(i) + 0.5f) / 2;
+    const float dy = static_cast<float>(p.y) + 0.5f - (static_cast<float>(j) + 0.5f) / 2;
+    const float dz = static_cast<float>(p.z) + 0.5f - heights[static_cast<std::size_t>(j) * m + i];
+    const float squared = dx * dx + dy * dy + dz * dz;
+    if (squared < best.squared)
+      best = {static_cast<std::int16_t>(i), static_cast<std::int16_t>(j), squared};
+  };
+  for (std::size_t v = 0; v < nearest.count(); ++v) {
+    const Vec3i p = nearest.ijk(v);
+    nearest.data()[v] = {0, 0, 1e30f};
+    for (int c = 0; c < 4; ++c) offer(nearest.data()[v], p, 2 * p.x + (c & 1), 2 * p.y + (c >> 1));
+  }
+  for (int round = 0; round < 4; ++round) {
+    const int side = round % 2 == 0 ? -1 : 1;
+    for (std::size_t v = 0; v < nearest.count(); ++v) {
+      const std::size_t at = side < 0 ? v : nearest.count() - 1 - v;
+      const Vec3i p = nearest.ijk(at);
+      Nearest& best = nearest.data()[at];
+      for (const Vec3i& step : {Vec3i{1, 0, 0}, Vec3i{0, 1, 0}, Vec3i{0, 0, 1}}) {
+        const Vec3i from = p + step * side;
+        if (!nearest.contains(from)) continue;
+        const Nearest other = nearest[from];
+        offer(best, p, other.i, other.j);
+        offer(best, p, other.i - side * step.x, other.j - side * step.y);
+      }
     }
-  return sampled(n, [&](const Vec3d& p) {
-    const auto at = static_cast<std::size_t>(p.y) * n + static_cast<std::size_t>(p.x);
-    return (p.z - heights[at]) / slopes[at];
-  });
+  }
+  Array3D<float> field({n, n, n});
+  for (std::size_t v = 0; v < field.count(); ++v) {
+    const Vec3i p = field.ijk(v);
+    const float top = heights[static_cast<std::size_t>(2 * p.y) * m + 2 * p.x];
+    const float distance = std::sqrt(nearest.data()[v].squared);
+    field.data()[v] = static_cast<float>(p.z) + 0.5f < top ? -distance : distance;
+  }
+  return field;
 }
 
 Array3D<float> chainmail(int n, double pitch, std::uint64_t seed) {

@@ -15,16 +15,15 @@ namespace exemplar {
 template <class Sample>
 using SquaredSum = std::conditional_t<std::is_same_v<Sample, std::uint8_t>, std::int64_t, double>;
 
-/// A query made ready for summing equation 1 against many blocks: its rows along x that have a
-/// known sample, each cut to the span of its known samples, in an order that spreads over the block
-/// so that a bad block is left early.
+/// A query made ready for summing equation 1 against many blocks, a vector of samples at a time, in
+/// an order that spreads over the block so that a bad block is left early.
 template <class Sample>
-class QueryRows {
+class BlockSum {
  public:
   using Sum = SquaredSum<Sample>;
 
   /// For sources of `sourceSize`. Throws as `blockPositions` and `knownSamples` do.
-  QueryRows(const BlockQuery<Sample>& query, const Vec3i& sourceSize);
+  BlockSum(const BlockQuery<Sample>& query, const Vec3i& sourceSize);
 
   std::int64_t known() const { return known_; }
   /// A sum as `BlockMatch::distance`.
@@ -41,17 +40,21 @@ class QueryRows {
   /// `limit`; its sum goes to `found`. `count` when there is none.
   std::size_t firstWithin(const Sample* block, std::size_t count, Sum limit, Sum& found) const;
 
-  struct Row {
-    std::uint32_t source;  ///< from the block's first sample to the row's first known one
-    std::uint32_t query;   ///< into `values` and `masks`
-    std::uint32_t length;
-    bool masked;  ///< holds unknown samples
+  static constexpr bool kLevels = std::is_same_v<Sample, std::uint8_t>;
+  static constexpr int kLanes = kLevels ? 16 : 8;
+  using Value = std::conditional_t<kLevels, std::int16_t, float>;
+
+  /// As many known samples as a vector has lanes, gathered from pieces of rows. A piece has a power
+  /// of two of samples, so that it is one load, and lies within its row, so that no load leaves the
+  /// source.
+  struct Chunk {
+    alignas(32) Value value[kLanes];  ///< 0 where unknown
+    alignas(32) Value mask[kLanes];   ///< all bits, or 1.0f, where known
+    std::uint32_t source[kLanes];     ///< of each piece, from the block's first sample
   };
   struct Data {
-    std::vector<Row> rows;
-    std::vector<std::conditional_t<std::is_same_v<Sample, std::uint8_t>, std::int16_t, float>>
-        values;
-    std::vector<Sample> masks;  ///< known: all bits set, or 1.0f; else 0
+    std::vector<Chunk> chunks;
+    int piece = kLanes;  ///< samples
   };
 
  private:
