@@ -1,0 +1,113 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+// Bad input gets one clear line and exit status 2, never a crash, never a file.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/file.h"
+#include "mesh/mesh_file.h"
+#include "tests/apps/run_command.h"
+
+namespace exemplar {
+namespace {
+
+using testing::HasSubstr;
+
+struct BadInput {
+  const char* name;       ///< of the test
+  const char* file;       ///< the example's name
+  const char* content;    ///< of the example
+  const char* arguments;  ///< after `synth FILE`
+  const char* says;       ///< in the error
+};
+
+void PrintTo(const BadInput& bad, std::ostream* out) { *out << bad.name; }
+
+constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n";
+
+class BadInputTest : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInputTest, GetsOneLineAndStatusTwoAndNoFile) {
+  const TestFolder folder;
+  const BadInput& bad = GetParam();
+  std::ofstream(folder / bad.file, std::ios::binary) << bad.content;
+  const auto result =
+      runExemplar(std::string("synth ") + bad.file + " " + bad.arguments, folder.path());
+  EXPECT_EQ(result.status, 2) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(bad.says));
+  const std::string last = result.err.substr(result.err.find("exemplar: "));
+  EXPECT_EQ(std::count(last.begin(), last.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(folder.files(), bad.file);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    BadInput, BadInputTest,
+    testing::Values(
+        BadInput{"EmptyFile", "e.obj", "", "-o o.obj", "e.obj: the file is empty"},
+        BadInput{"NoTriangles", "e.obj", "v 0 0 0\n", "-o o.obj", "e.obj"},
+        BadInput{"NaN", "e.obj", "v 0 nan 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n", "-o o.obj", "e.obj"},
+        BadInput{"Infinite", "e.obj", "v 0 inf 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n", "-o o.obj",
+                 "e.obj"},
+        BadInput{"MissingVertex", "e.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n", "-o o.obj", "e.obj:3"},
+        BadInput{"TruncatedGlb", "e.glb", "glTF\2", "-o o.obj", "e.glb"},
+        BadInput{"TruncatedStl", "e.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0",
+                 "-o o.obj", "e.stl"},
+        BadInput{"NotAVdb", "e.vdb", "not a grid", "-o o.obj", "e.vdb"},
+        BadInput{"NotAPng", "e.png", "not a picture", "-o o.obj", "e.png"},
+        BadInput{"ShortPgm", "e.pgm", "P2 3 3 255\n1 2 3", "-o o.obj", "e.pgm"},
+        BadInput{"BadScene", "e.toml", "kind = \"unheard of\"\n", "-o o.obj", "e.toml"},
+        BadInput{"BrokenToml", "e.toml", "kind = = 3\n", "-o o.obj", "e.toml"},
+        BadInput{"UnknownKind", "e.xyz", "1 2 3", "-o o.obj", "e.xyz: not a kind of example"},
+        BadInput{"UnknownOutput", "e.obj", kTriangle, "-o o.xyz", "o.xyz"},
+        BadInput{"NoSuchFolder", "e.obj", kTriangle, "-o no/o.obj", "no/o.obj: cannot be written"},
+        BadInput{"PreviewNotPng", "e.obj", kTriangle, "-o o.obj --preview p.jpg", "p.jpg"},
+        BadInput{"ZeroScale", "e.obj", kTriangle, "-o o.obj --scale 0,1,1", "--scale 0,1,1"},
+        BadInput{"NegativeScale", "e.obj", kTriangle, "-o o.obj --scale=-2", "--scale -2"},
+        BadInput{"TwoScales", "e.obj", kTriangle, "-o o.obj --scale 2,2", "--scale 2,2"},
+        BadInput{"EndlessScale", "e.obj", kTriangle, "-o o.obj --scale inf", "--scale inf"},
+        BadInput{"HugeScale", "e.obj", kTriangle, "-o o.obj --scale 500", "--scale"},
+        BadInput{"HugeResult", "e.obj", kTriangle, "-o o.obj --scale 400", "memory"},
+        BadInput{"HugeResolution", "e.obj", kTriangle, "-o o.obj --resolution 99999",
+                 "--resolution"},
+        BadInput{"UnknownMethod", "e.obj", kTriangle, "-o o.obj --method magic", "--method"},
+        BadInput{"BadView", "e.obj", kTriangle, "-o o.obj --preview p.png --view sideways",
+                 "sideways"},
+        BadInput{"BadPictureSize", "e.obj", kTriangle, "-o o.obj --preview p.png --size 0x9",
+                 "--size 0x9"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(BadCommand, MissingFileIsNamed) {
+  const TestFolder folder;
+  const auto result = runExemplar("synth none.obj -o o.obj", folder.path());
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("none.obj: no such file"));
+}
+
+TEST(BadCommand, NoCommandAndUnknownOptionAreStatusTwo) {
+  const TestFolder folder;
+  EXPECT_EQ(runExemplar("", folder.path()).status, 2);
+  EXPECT_EQ(runExemplar("frobnicate", folder.path()).status, 2);
+  EXPECT_EQ(runExemplar("synth e.obj -o o.obj --frobnicate", folder.path()).status, 2);
+}
+
+TEST(BadCommand, HelpAndVersionAreStatusZero) {
+  const TestFolder folder;
+  EXPECT_EQ(runExemplar("--help", folder.path()).status, 0);
+  EXPECT_THAT(runExemplar("synth --help", folder.path()).out, HasSubstr("--scale"));
+  EXPECT_EQ(runExemplar("--version", folder.path()).status, 0);
+}
+
+TEST(BadCommand, AFullDiskLeavesNoFile) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const TestFolder folder;
+  const auto result = runExemplar("scene chainmail -o /dev/full", folder.path());
+  EXPECT_EQ(result.status, 2);
+}
+
+}  // namespace
+}  // namespace exemplar

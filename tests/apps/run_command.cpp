@@ -1,0 +1,64 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "tests/apps/run_command.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace exemplar {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+CommandResult runExemplar(const std::string& arguments, const fs::path& folder) {
+  const fs::path out = fs::temp_directory_path() / ("exemplar_out_" + std::to_string(getpid()));
+  const fs::path err = fs::temp_directory_path() / ("exemplar_err_" + std::to_string(getpid()));
+  const std::string line = "cd '" + folder.string() + "' && '" + EXEMPLAR_COMMAND "' " + arguments +
+                           " >'" + out.string() + "' 2>'" + err.string() + "'";
+  const int code = std::system(line.c_str());
+  CommandResult result{WIFEXITED(code) ? WEXITSTATUS(code) : -1, contentOf(out), contentOf(err)};
+  fs::remove(out);
+  fs::remove(err);
+  return result;
+}
+
+TestFolder::TestFolder() {
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  std::string name = std::string("exemplar_") + test->test_suite_name() + "_" + test->name();
+  for (char& c : name) {
+    if (c == '/') c = '_';
+  }
+  path_ = fs::temp_directory_path() / (name + "_" + std::to_string(getpid()));
+  fs::remove_all(path_);
+  fs::create_directories(path_);
+}
+
+TestFolder::~TestFolder() { fs::remove_all(path_); }
+
+std::string TestFolder::files() const {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    names.insert(entry.path().filename().string());
+  }
+  std::string joined;
+  for (const std::string& name : names) joined += (joined.empty() ? "" : " ") + name;
+  return joined;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,34 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace exemplar {
+
+/// What a run of the `exemplar` command came to.
+struct CommandResult {
+  int status = -1;  ///< exit status; -1 when a signal ended it
+  std::string out, err;
+};
+
+/// Runs `exemplar ARGUMENTS` through the shell in `folder`.
+CommandResult runExemplar(const std::string& arguments, const std::filesystem::path& folder);
+
+/// An empty folder of its own for the running test, removed with it.
+class TestFolder {
+ public:
+  TestFolder();
+  ~TestFolder();
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  /// The names of the files in it, sorted and joined by spaces.
+  std::string files() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace exemplar
