@@ -122,7 +122,8 @@ double solidFraction(const Occupancy& occupancy) {
 
 double surfaceDensity(const Occupancy& occupancy) {
   double density = 0, weights = 0;
-  for (const auto& [step, weight] : kDirections) {
+  for (const Direction& direction : kDirections) {
+    const Vec3i step = direction.step;
     const Vec3i pairs = occupancy.size() - Vec3i{std::abs(step.x), std::abs(step.y), step.z};
     if (pairs.x <= 0 || pairs.y <= 0 || pairs.z <= 0) continue;  // a volume one cell thin
     const auto changes =
@@ -130,8 +131,8 @@ double surfaceDensity(const Occupancy& occupancy) {
           return countChanges(occupancy, step, static_cast<int>(z0), static_cast<int>(z1));
         });
     const double runs = static_cast<double>(volume(pairs)) * length(cast<double>(step));
-    density += 2 * weight * static_cast<double>(changes) / runs;
-    weights += weight;
+    density += 2 * direction.weight * static_cast<double>(changes) / runs;
+    weights += direction.weight;
   }
   return weights == 0 ? 0 : density / weights;
 }

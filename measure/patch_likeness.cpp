@@ -255,10 +255,8 @@ void compare(const Block& block, Best& best, const std::uint64_t* words,
   bool better = false;
   for (int w = 0; w < kBlock; ++w) {
     if (!keep[w]) continue;
-    int both = 0;
-    for (int i = 0; i < kWords; ++i) both += std::popcount(block.words[w][i] & words[i]);
-    const float iou =
-        static_cast<float>(both) / (block.solid[w] + solid - static_cast<float>(both));
+    const auto both = static_cast<float>(common(block.words[w].data(), words));
+    const float iou = both / (block.solid[w] + solid - both);
     if (iou > best.iou[w]) {
       best.iou[w] = iou;
       better = true;
