@@ -1,0 +1,153 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "reconstruct/adjacency.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "core/parallel.h"
+
+namespace exemplar {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) {
+    parent[v] = parent[parent[v]];
+    v = parent[v];
+  }
+  return v;
+}
+
+template <class T>
+void keepOnly(std::vector<T>& items, std::span<const std::uint8_t> keep) {
+  if (items.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < items.size(); ++n) {
+    if (keep[n]) items[kept++] = items[n];
+  }
+  items.resize(kept);
+}
+
+}  // namespace
+
+EdgeGroups edgeGroups(const Triangles& triangles, std::size_t vertices) {
+  // Halfedges are dealt into one bucket for each edge's lower vertex; a bucket is short, so sorting
+  // it by the higher vertex costs next to nothing.
+  const auto halfedgeCount = static_cast<std::uint32_t>(3 * triangles.size());
+  const auto lowVertex = [&](std::uint32_t h) {
+    return std::min(fromVertex(triangles, h), toVertex(triangles, h));
+  };
+  const auto highVertex = [&](std::uint32_t h) {
+    return std::max(fromVertex(triangles, h), toVertex(triangles, h));
+  };
+  std::vector<std::uint32_t> bucket(vertices + 1, 0);
+  for (std::uint32_t h = 0; h < halfedgeCount; ++h) ++bucket[lowVertex(h) + 1];
+  std::partial_sum(bucket.begin(), bucket.end(), bucket.begin());
+
+  EdgeGroups groups;
+  groups.halfedges.resize(halfedgeCount);
+  std::vector<std::uint32_t> fill(bucket.begin(), bucket.end() - 1);
+  for (std::uint32_t h = 0; h < halfedgeCount; ++h) groups.halfedges[fill[lowVertex(h)]++] = h;
+  parallelFor(0, vertices, kGrain, [&](std::size_t v0, std::size_t v1) {
+    for (std::size_t v = v0; v < v1; ++v) {
+      std::sort(groups.halfedges.begin() + bucket[v], groups.halfedges.begin() + bucket[v + 1],
+                [&](std::uint32_t a, std::uint32_t b) {
+                  return std::pair(highVertex(a), a) < std::pair(highVertex(b), b);
+                });
+    }
+  });
+  groups.begin.reserve(halfedgeCount / 2 + 2);
+  for (std::uint32_t n = 0; n < halfedgeCount; ++n) {
+    const std::uint32_t h = groups.halfedges[n];
+    if (n == 0 || lowVertex(h) != lowVertex(groups.halfedges[n - 1]) ||
+        highVertex(h) != highVertex(groups.halfedges[n - 1])) {
+      groups.begin.push_back(n);
+    }
+  }
+  groups.begin.push_back(halfedgeCount);
+  return groups;
+}
+
+std::vector<std::uint32_t> mateHalfedges(const Triangles& triangles, std::size_t vertices) {
+  const EdgeGroups groups = edgeGroups(triangles, vertices);
+  std::vector<std::uint32_t> mates(3 * triangles.size(), kNone);
+  for (std::size_t e = 0; e < groups.count(); ++e) {
+    const auto group = groups.group(e);
+    if (group.size() != 2) continue;
+    if (fromVertex(triangles, group[0]) == fromVertex(triangles, group[1])) continue;
+    mates[group[0]] = group[1];
+    mates[group[1]] = group[0];
+  }
+  return mates;
+}
+
+VertexCorners vertexCorners(const Triangles& triangles, std::size_t vertices) {
+  VertexCorners result;
+  result.begin.assign(vertices + 1, 0);
+  for (const auto& t : triangles) {
+    for (const std::uint32_t v : t) ++result.begin[v + 1];
+  }
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  result.corners.resize(3 * triangles.size());
+  std::vector<std::uint32_t> fill(result.begin.begin(), result.begin.end() - 1);
+  for (std::uint32_t h = 0; h < result.corners.size(); ++h) {
+    result.corners[fill[fromVertex(triangles, h)]++] = h;
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> vertexComponents(const Triangles& triangles, std::size_t vertices,
+                                            std::uint32_t* count) {
+  std::vector<std::uint32_t> parent(vertices);
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const auto& t : triangles) {
+    for (int c = 1; c < 3; ++c) {
+      // The lower root wins, so that a part is known by its lowest vertex.
+      const std::uint32_t a = findRoot(parent, t[0]), b = findRoot(parent, t[c]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<std::uint32_t> component(vertices);
+  std::uint32_t found = 0;
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    const std::uint32_t root = findRoot(parent, v);
+    component[v] = root == v ? found++ : component[root];
+  }
+  if (count) *count = found;
+  return component;
+}
+
+void keepTriangles(TriangleMesh& mesh, std::span<const std::uint8_t> keep) {
+  keepOnly(mesh.uvs, keep);
+  keepOnly(mesh.triangleMaterials, keep);
+  keepOnly(mesh.triangles, keep);
+
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t v : t) used[v] = 1;
+  }
+  std::vector<std::uint32_t> place(mesh.positions.size());
+  std::exclusive_scan(used.begin(), used.end(), place.begin(), 0u,
+                      [](std::uint32_t a, std::uint32_t b) { return a + b; });
+  keepOnly(mesh.colors, used);
+  keepOnly(mesh.positions, used);
+  for (auto& t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = place[v];
+  }
+}
+
+std::vector<Vec3d> vertexNormals(const TriangleMesh& mesh, const VertexCorners& corners) {
+  std::vector<Vec3d> normals(mesh.positions.size());
+  parallelFor(0, normals.size(), kGrain, [&](std::size_t v0, std::size_t v1) {
+    for (std::size_t v = v0; v < v1; ++v) {
+      for (const std::uint32_t corner : corners.at(v)) normals[v] += areaNormal(mesh, corner / 3);
+    }
+  });
+  return normals;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,169 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "reconstruct/example_surface.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/memory.h"
+
+namespace exemplar {
+
+struct ExampleSurface::Data {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  Vec3d center{};  // Embree's floats are relative to it
+  std::vector<std::array<Vec3d, 3>> corners;
+  std::vector<Vec3d> normals;
+
+  ~Data() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+namespace {
+
+/// Barycentric weights of the point of triangle a, b, c that is nearest to `p`: inside the face, or
+/// on the nearest side (Ericson, "Real-Time Collision Detection", 2005, section 5.1.5).
+std::array<double, 3> closestWeights(const Vec3d& p, const Vec3d& a, const Vec3d& b,
+                                     const Vec3d& c) {
+  const Vec3d ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+  const Vec3d bp = p - b;
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    const double t = d1 - d3 > 0 ? d1 / (d1 - d3) : 0;
+    return {1 - t, t, 0};
+  }
+  const Vec3d cp = p - c;
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    const double t = d2 - d6 > 0 ? d2 / (d2 - d6) : 0;
+    return {1 - t, 0, t};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double sum = (d4 - d3) + (d5 - d6), t = sum > 0 ? (d4 - d3) / sum : 0;
+    return {0, 1 - t, t};
+  }
+  const double sum = va + vb + vc;
+  return {va / sum, vb / sum, vc / sum};
+}
+
+/// What a running query knows; Embree hands it to `visit` with each triangle that is near enough.
+struct Search {
+  const std::vector<std::array<Vec3d, 3>>& corners;
+  const std::vector<Vec3d>& normals;
+  const Vec3d& point;
+  const ClosestOptions& options;
+  double cost = std::numeric_limits<double>::infinity();
+  SurfacePoint best;
+};
+
+/// Floats in the tree are rounded: look a little further than the best so far, so that what is
+/// found does not depend on the order of the visits.
+float lookWithin(double distance) { return static_cast<float>(distance * (1 + 1e-5) + 1e-30); }
+
+bool visit(RTCPointQueryFunctionArguments* args) {
+  Search& search = *static_cast<Search*>(args->userPtr);
+  const ClosestOptions& options = search.options;
+  const std::uint32_t t = args->primID;
+  if (!options.groups.empty() && options.groups[t] != options.group) return false;
+  const auto& [a, b, c] = search.corners[t];
+  const auto weights = closestWeights(search.point, a, b, c);
+  const Vec3d position = a * weights[0] + b * weights[1] + c * weights[2];
+  const double distance = length(position - search.point);
+  if (distance > options.radius) return false;
+  const double cost =
+      distance + options.facingCost * (1 - dot(search.normals[t], options.facing)) / 2;
+  if (cost > search.cost || (cost == search.cost && t >= search.best.triangle)) return false;
+  search.cost = cost;
+  search.best = {t, weights, position, distance};
+  const float within = lookWithin(std::min(cost, options.radius));
+  if (!(within < args->query->radius)) return false;
+  args->query->radius = within;
+  return true;
+}
+
+}  // namespace
+
+ExampleSurface::ExampleSurface(const TriangleMesh& mesh) : data_(std::make_unique<Data>()) {
+  requireMemory(300.0 * static_cast<double>(mesh.triangles.size()),
+                "looking up the example's surface", "use an example with fewer triangles");
+  const Box3d box = boundingBox(mesh);
+  data_->center = box.empty() ? Vec3d{} : box.center();
+  data_->corners.resize(mesh.triangles.size());
+  data_->normals.resize(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    data_->corners[t] = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+    data_->normals[t] = normalized(areaNormal(mesh, t));
+  }
+
+  data_->device = rtcNewDevice(nullptr);
+  if (!data_->device) {
+    throw std::runtime_error("Embree cannot start: error " +
+                             std::to_string(rtcGetDeviceError(nullptr)));
+  }
+  data_->scene = rtcNewScene(data_->device);
+  RTCGeometry geometry = rtcNewGeometry(data_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* points = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              3 * sizeof(float), std::max<std::size_t>(1, mesh.positions.size())));
+  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
+      std::max<std::size_t>(1, mesh.triangles.size())));
+  if (!points || !indices) {
+    rtcReleaseGeometry(geometry);
+    throw InputError("the example's surface does not fit in memory; use one with fewer triangles");
+  }
+  for (const Vec3d& p : mesh.positions) {
+    for (int a = 0; a < 3; ++a) *points++ = static_cast<float>(p[a] - data_->center[a]);
+  }
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t v : t) *indices++ = v;
+  }
+  rtcSetGeometryPointQueryFunction(geometry, visit);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(data_->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(data_->scene);
+}
+
+ExampleSurface::~ExampleSurface() = default;
+ExampleSurface::ExampleSurface(ExampleSurface&&) noexcept = default;
+ExampleSurface& ExampleSurface::operator=(ExampleSurface&&) noexcept = default;
+
+std::optional<SurfacePoint> ExampleSurface::closest(const Vec3d& point,
+                                                    const ClosestOptions& options) const {
+  Search search{data_->corners, data_->normals, point, options};
+  RTCPointQuery query;
+  query.x = static_cast<float>(point.x - data_->center.x);
+  query.y = static_cast<float>(point.y - data_->center.y);
+  query.z = static_cast<float>(point.z - data_->center.z);
+  query.time = 0;
+  query.radius = lookWithin(options.radius);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(data_->scene, &query, &context, nullptr, &search);
+  if (search.cost == std::numeric_limits<double>::infinity()) return std::nullopt;
+  return search.best;
+}
+
+const Vec3d& ExampleSurface::normal(std::uint32_t triangle) const {
+  return data_->normals[triangle];
+}
+
+}  // namespace exemplar

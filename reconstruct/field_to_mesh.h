@@ -1,0 +1,56 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+
+#include "mesh/mesh_health.h"
+#include "mesh/triangle_mesh.h"
+#include "reconstruct/manifold.h"
+#include "sdf/distance_field.h"
+
+namespace exemplar {
+
+struct FieldToMeshOptions {
+  /// Close the surface where the field's box cuts it, flat and with sharp rims; else it ends open
+  /// there.
+  bool close = true;
+  /// Make the field a signed distance again before contouring (`redistance`): a synthesized one
+  /// jumps where two copied parts meet, and a jump misplaces the surface between two samples.
+  bool redistance = true;
+  /// Draw each vertex from the middle of its cell's crossings onto the field's zero, so that thin
+  /// and round things keep their volume.
+  bool project = true;
+  /// How much surface that is nearly flat is merged, 0 (nothing, even triangles of the voxel's
+  /// size) to 1. Meant for quick small meshes; `decimate` gives better ones.
+  double adaptivity = 0;
+  /// Closed parts, and closed hollows, smaller than this many voxels are dropped unless they touch
+  /// the box; 0 keeps everything.
+  double smallestPiece = 8;
+};
+
+/// What `fieldToMesh` did and how sound the result is.
+struct FieldToMeshReport {
+  MeshHealth health;
+  ManifoldReport manifold;
+  std::int64_t droppedPieces = 0;  ///< parts below `smallestPiece`
+  bool uniform = true;             ///< false where `adaptivity` was at work in the end
+};
+
+/// The surface φ = 0 as triangles (Lagae 2004, section 5.3), by OpenVDB's dual contouring of the
+/// field's cells; every quad is cut along the diagonal that lies nearer to the surface.
+///
+/// The result winds anticlockwise seen from outside, has no triangle without area, every edge has
+/// two triangles and every vertex one fan, whatever the field holds (white noise, touching voxels);
+/// with `close` off, edges in the box's faces have one triangle. Positions are exact to about a
+/// tenth of a voxel where the field is a smooth distance. Where `adaptivity` cannot keep that
+/// promise, the field is contoured without it.
+///
+/// O(n) for n samples; about 6 bytes a sample beyond the field. The same bytes at any number of
+/// threads. Throws `InputError` for options out of range, for samples that are not finite and for a
+/// field without surface, saying what would give one.
+TriangleMesh fieldToMesh(const DistanceField& field, const FieldToMeshOptions& options = {},
+                         FieldToMeshReport* report = nullptr);
+
+}  // namespace exemplar

@@ -1,0 +1,136 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "reconstruct/pull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+
+namespace exemplar {
+namespace {
+
+/// How many voxels a triangle counts as farther that faces the opposite way.
+constexpr double kFacingCost = 1;
+/// The difference of cost, in voxels, that lowers a match's weight to 1/e.
+constexpr double kCostScale = 0.35;
+/// Matches this many voxels worse than the best have no weight to speak of.
+constexpr double kWorse = 1;
+
+}  // namespace
+
+void checkOrigins(const DistanceField& field, const Origins& origins,
+                  std::span<const ExampleView> examples) {
+  if (origins.size() != field.size()) {
+    throw InputError("the origins are not of the field's size; use those of the same synthesis");
+  }
+  for (const Origin& o : origins.values()) {
+    if (o.example >= examples.size()) {
+      throw InputError("the origins name example " + std::to_string(o.example + 1) + " and " +
+                       std::to_string(examples.size()) + (examples.size() == 1 ? " is" : " are") +
+                       " given; give all examples, in the order of the synthesis");
+    }
+  }
+}
+
+OriginPullView::OriginPullView(const DistanceField& field, const Origins& origins,
+                               std::span<const ExampleView> examples, double blend)
+    : field_(field), origins_(origins), examples_(examples), reach_(blend + 0.5) {
+  if (!(blend >= 0.5 && blend <= 4)) {
+    throw InputError("blend: " + std::to_string(blend) +
+                     " voxels are out of range; 0.5 to 4 is right");
+  }
+  checkOrigins(field, origins, examples);
+  surfaces_.reserve(examples.size());
+  for (const ExampleView& example : examples) surfaces_.emplace_back(example.mesh);
+}
+
+std::optional<Match> OriginPullView::nearest(const OriginMotion& motion, const Vec3d& index,
+                                             const Vec3d& normal, double radius,
+                                             std::span<const std::uint32_t> groups,
+                                             std::uint32_t group) const {
+  const DistanceField& exampleField = examples_[motion.example].field;
+  const double voxel = exampleField.voxelSize;
+  const auto found =
+      surfaces_[motion.example].closest(exampleField.position(motion.toExample(index)),
+                                        {.radius = radius * voxel,
+                                         .facing = motion.directionToExample(normal),
+                                         .facingCost = normal == Vec3d{} ? 0 : kFacingCost * voxel,
+                                         .groups = groups,
+                                         .group = group});
+  if (!found) return std::nullopt;
+  Match match;
+  match.motion = motion;
+  match.point = *found;
+  match.cost = found->distance / voxel;
+  if (!(normal == Vec3d{})) {
+    const Vec3d& there = surfaces_[motion.example].normal(found->triangle);
+    match.cost += kFacingCost * (1 - dot(there, motion.directionToExample(normal))) / 2;
+  }
+  return match;
+}
+
+std::optional<Match> OriginPullView::matchUnder(const OriginMotion& motion, const Vec3d& position,
+                                                const Vec3d& normal,
+                                                std::span<const std::uint32_t> groups,
+                                                std::uint32_t group) const {
+  return nearest(motion, field_.index(position), normal, std::numeric_limits<double>::infinity(),
+                 groups, group);
+}
+
+void OriginPullView::match(const Vec3d& position, const Vec3d& normal, Matches& out) const {
+  const Vec3d at = field_.index(position);
+  Vec3d center;
+  Vec3i low, high;
+  for (int a = 0; a < 3; ++a) {
+    center[a] = std::clamp(at[a], 0.0, origins_.size()[a] - 1.0);
+    low[a] = std::max(0, static_cast<int>(std::ceil(center[a] - reach_)));
+    high[a] = std::min(origins_.size()[a] - 1, static_cast<int>(std::floor(center[a] + reach_)));
+  }
+  // The samples' motions with the sum of their tent weights, in order of appearance.
+  std::array<std::pair<OriginMotion, double>, 64> votes;
+  int voteCount = 0;
+  for (int k = low.z; k <= high.z; ++k) {
+    const double wz = reach_ - std::abs(k - center.z);
+    for (int j = low.y; j <= high.y; ++j) {
+      const double wyz = wz * (reach_ - std::abs(j - center.y));
+      for (int i = low.x; i <= high.x; ++i) {
+        const double weight = wyz * (reach_ - std::abs(i - center.x));
+        if (weight <= 0) continue;
+        const OriginMotion motion = motionAt(origins_, {i, j, k});
+        int n = 0;
+        while (n < voteCount && !(votes[n].first == motion)) ++n;
+        if (n < voteCount) {
+          votes[n].second += weight;
+        } else if (voteCount < static_cast<int>(votes.size())) {
+          votes[voteCount++] = {motion, weight};
+        }
+      }
+    }
+  }
+  std::stable_sort(votes.begin(), votes.begin() + voteCount,
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+
+  out.count = 0;
+  double best = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < std::min(voteCount, Matches::kMost); ++n) {
+    const auto match = nearest(votes[n].first, at, normal, best + kWorse, {}, 0);
+    if (!match) continue;
+    best = std::min(best, match->cost);
+    out.match[out.count] = *match;
+    out.match[out.count++].weight = votes[n].second;
+  }
+  double sum = 0;
+  for (int n = 0; n < out.count; ++n) {
+    const double worse = (out.match[n].cost - best) / kCostScale;
+    out.match[n].weight *= std::exp(-worse * worse);
+    sum += out.match[n].weight;
+  }
+  for (int n = 0; n < out.count; ++n) out.match[n].weight /= sum;
+  std::stable_sort(out.match.begin(), out.match.begin() + out.count,
+                   [](const Match& a, const Match& b) { return a.weight > b.weight; });
+}
+
+}  // namespace exemplar

@@ -1,0 +1,72 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/origin.h"
+#include "mesh/triangle_mesh.h"
+#include "reconstruct/example_surface.h"
+#include "reconstruct/origin_map.h"
+#include "reconstruct/transfer.h"
+#include "sdf/distance_field.h"
+
+namespace exemplar {
+
+/// A place of an example that a point of the result may have come from.
+struct Match {
+  OriginMotion motion;
+  SurfacePoint point;  ///< the nearest on the example's surface
+  double cost = 0;     ///< its distance and how much it faces away, in voxels of the example
+  double weight = 0;   ///< 0..1; all matches of a point together have 1
+};
+
+/// The matches of one point, heaviest first; few, so they live on the stack.
+struct Matches {
+  static constexpr int kMost = 12;
+  std::array<Match, kMost> match;
+  int count = 0;
+
+  const Match* begin() const { return match.data(); }
+  const Match* end() const { return match.data() + count; }
+};
+
+/// Throws `InputError` unless there is an origin for each sample of the field, all of them naming
+/// examples that are there.
+void checkOrigins(const DistanceField& field, const Origins& origins,
+                  std::span<const ExampleView> examples);
+
+/// Pulls points of a result back to the examples through its origins. Immutable; borrows its
+/// arguments.
+class OriginPullView {
+ public:
+  /// `blend`: within how many voxels samples have a say.
+  OriginPullView(const DistanceField& field, const Origins& origins,
+                 std::span<const ExampleView> examples, double blend);
+
+  /// Where `position` (world) of the result, with unit normal `normal` or zero, may have come from.
+  void match(const Vec3d& position, const Vec3d& normal, Matches& out) const;
+
+  /// The nearest point of an example's surface under a given motion, with its cost in voxels;
+  /// `groups` as in `ClosestOptions`. Nothing where the group has no triangle.
+  std::optional<Match> matchUnder(const OriginMotion& motion, const Vec3d& position,
+                                  const Vec3d& normal, std::span<const std::uint32_t> groups = {},
+                                  std::uint32_t group = 0) const;
+
+ private:
+  std::optional<Match> nearest(const OriginMotion& motion, const Vec3d& index, const Vec3d& normal,
+                               double radius, std::span<const std::uint32_t> groups,
+                               std::uint32_t group) const;
+
+  const DistanceField& field_;
+  const Origins& origins_;
+  std::span<const ExampleView> examples_;
+  double reach_;
+  std::vector<ExampleSurface> surfaces_;
+};
+
+}  // namespace exemplar

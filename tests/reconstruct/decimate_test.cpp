@@ -1,0 +1,76 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "reconstruct/decimate.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "mesh/primitives.h"
+#include "reconstruct/field_to_mesh.h"
+#include "tests/reconstruct/fields.h"
+
+namespace exemplar {
+namespace {
+
+TEST(Decimate, KeepsASurfaceSoundAndNear) {
+  const auto value = [](const Vec3d& p) { return torusDistance(p, 14, 6); };
+  const DistanceField field = makeField({44, 44, 16}, 1, {-21.5, -21.5, -7.5}, value);
+  TriangleMesh mesh = fieldToMesh(field);
+  const std::size_t before = mesh.triangles.size();
+  decimate(mesh, {.error = 0.2});
+  expectSound(mesh);
+  EXPECT_EQ(eulerCharacteristic(mesh), 0);
+  EXPECT_LT(mesh.triangles.size(), before / 3);
+  // Planes that bound the error are those of the fine mesh, itself within 0.05 voxels.
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3d middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
+    EXPECT_LT(std::abs(value(middle)), 0.5);
+  }
+  for (const Vec3d& p : mesh.positions) EXPECT_LT(std::abs(value(p)), 0.25);
+}
+
+TEST(Decimate, FlatFacesShrinkToAFewTrianglesAndTheBoxStaysWhole) {
+  const DistanceField field =
+      makeField({20, 20, 20}, 0.5, {0, 0, 0}, [](const Vec3d& p) { return p.z + 0.3 * p.x - 6.1; });
+  TriangleMesh mesh = fieldToMesh(field);
+  const double volume = meshHealth(mesh).signedVolume;
+  const std::size_t before = mesh.triangles.size();
+  decimate(mesh, {.error = 0.01, .box = field.box()});
+  expectSound(mesh);
+  EXPECT_LT(mesh.triangles.size(), before / 10);
+  EXPECT_NEAR(meshHealth(mesh).signedVolume, volume, 0.01 * volume);
+  const Box3d box = boundingBox(mesh), expected = field.box();
+  EXPECT_NEAR(box.min.x, expected.min.x, 1e-12);
+  EXPECT_NEAR(box.max.y, expected.max.y, 1e-12);
+}
+
+TEST(Decimate, AnErrorOfZeroKeepsCurvedSurface) {
+  TriangleMesh mesh = makeSphere({}, 1, 8);
+  const TriangleMesh before = mesh;
+  decimate(mesh, {.error = 0});
+  EXPECT_EQ(mesh.triangles.size(), before.triangles.size());
+}
+
+TEST(Decimate, StopsAtTheNumberAskedFor) {
+  TriangleMesh mesh = makeSphere({}, 1, 16);
+  decimate(mesh, {.error = 10, .triangles = 500});
+  EXPECT_LE(mesh.triangles.size(), 500u);
+  EXPECT_GE(mesh.triangles.size(), 490u);
+  expectSound(mesh);
+}
+
+TEST(Decimate, RefusesWhatItWouldSpoil) {
+  TriangleMesh mesh = makeSphere({}, 1, 2);
+  EXPECT_THROW(decimate(mesh, {.error = -1}), InputError);
+  EXPECT_THROW(decimate(mesh, {.error = 1, .triangles = -1}), InputError);
+  mesh.colors.assign(mesh.positions.size(), {1, 1, 1, 1});
+  EXPECT_THROW(decimate(mesh, {.error = 1}), InputError);
+  TriangleMesh fan;
+  fan.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}};
+  fan.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  EXPECT_THROW(decimate(fan, {.error = 1}), InputError);
+}
+
+}  // namespace
+}  // namespace exemplar
