@@ -76,8 +76,8 @@ ProcessSample makeMetal(const MetalProcess& process, const Vec3d& extent, std::u
 /// 2014, doi:10.1016/j.cageo.2013.04.024), and a limit on slopes.
 struct TerrainProcess {
   double side = 64;    ///< of the window
-  double relief = 20;  ///< of the highest ridges above the valley floors, about
-  double valley = 38;  ///< distance of valley floors, about; 8..side
+  double relief = 15;  ///< of the highest ridges above the valley floors, about
+  double valley = 34;  ///< distance of valley floors, about; 8..side
   double depth = 5;    ///< solid below the valley floors
   int steps = 60;      ///< of erosion, 1..1000
 };

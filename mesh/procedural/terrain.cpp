@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <queue>
@@ -34,7 +35,7 @@ class Landscape {
         const std::size_t cell = index(c, r);
         // Valley floors wind along the zero lines of a smooth noise: base levels that never rise.
         const double bend = fractalNoise(random, c / (1.25 * valley), r / (1.25 * valley), 3, 0.35);
-        floor_[cell] = std::abs(bend) < 0.035;
+        floor_[cell] = std::abs(bend) < 0.05;
         height_[cell] =
             floor_[cell] ? 0 : 0.5 + 0.5 * fractalNoise(random, 31 + c / 9.0, 47 + r / 9.0, 4);
       }
@@ -73,6 +74,26 @@ class Landscape {
             if (drop > limit * run) next[cell] -= 0.12 * (drop - limit * run);
             if (-drop > limit * run) next[cell] += 0.12 * (-drop - limit * run);
           }
+        }
+      }
+      height_.swap(next);
+    }
+  }
+
+  /// Averages each cell with its neighbours: soil creeps.
+  void smooth(int rounds) {
+    std::vector<double> next(height_.size());
+    for (int round = 0; round < rounds; ++round) {
+      for (int r = 0; r < rows_; ++r) {
+        for (int c = 0; c < columns_; ++c) {
+          double sum = 2 * height_[index(c, r)], weight = 2;
+          for (const auto& d : kNeighbors) {
+            if (!inside(c + d[0], r + d[1])) continue;
+            const double w = d[0] && d[1] ? 0.5 : 1.0;
+            sum += w * height_[index(c + d[0], r + d[1])];
+            weight += w;
+          }
+          next[index(c, r)] = sum / weight;
         }
       }
       height_.swap(next);
@@ -165,10 +186,11 @@ ProcessSample makeTerrain(const TerrainProcess& process, const Vec3d& extent, st
   const int rows = static_cast<int>((window.y + 2 * margin) / cell) + 1;
   Landscape land(columns, rows, process.valley / cell, random);
   for (int step = 0; step < process.steps; ++step) {
-    land.erode(0.5, 0.22);
-    land.slide(1.0, 1);
+    land.erode(0.5, 0.12);
+    land.slide(0.8, 2);
   }
-  land.slide(0.9, 4);
+  land.smooth(2);
+  land.slide(0.8, 4);
   // The process has no scale of height of its own: its 99.5th percentile becomes the relief.
   std::vector<double> sorted = land.heights();
   const auto high = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 995 / 1000);

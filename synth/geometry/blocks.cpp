@@ -16,22 +16,48 @@
 #include "sdf/resample.h"
 #include "search/linear_scan.h"
 #include "search/search_tree.h"
+#include "synth/geometry/stationary.h"
 
 namespace exemplar {
 namespace {
 
 constexpr std::uint32_t kSeedStream = 0xb10c, kStartStream = 0xb10d;
 
-/// The example as the search sees it: quantized, and at least a block thick along each axis.
-Array3D<std::uint8_t> searchable(const DistanceField& example, double truncation, int block) {
-  const auto quantized =
-      quantize(example, static_cast<float>(truncation * example.voxelSize)).levels;
-  Array3D<std::uint8_t> source(max(quantized.size(), Vec3i{block, block, block}));
-  for (std::size_t s = 0; s < source.count(); ++s) {
-    source.values()[s] = quantized[quantized.clamped(source.ijk(s))];
-  }
-  return source;
+/// Whether blocks keep their height: where the example is not stationary along z (ground below, air
+/// above) and the result is as high as it.
+bool keepsHeight(const DistanceField& example, const BlocksOptions& options) {
+  return options.size.z == example.size().z && !findStationaryAxes(example).z;
 }
+
+/// The example as iterations with blocks of one size search it: quantized, at least a block thick
+/// along each axis, and, where blocks keep their height, cut into overlapping slabs of a block's
+/// height.
+struct BlockSource {
+  int side = 0;            ///< of blocks, in finest samples
+  bool slabs = false;      ///< slab n begins at height n * side / 2; else there is one, the whole
+  std::optional<SlidingPyramid> pyramid;  ///< of the whole
+  std::vector<SearchTree> trees;
+
+  BlockSource(const DistanceField& example, int blockSide, const BlocksOptions& options)
+      : side(blockSide), slabs(keepsHeight(example, options)) {
+    const auto levels =
+        quantize(example, static_cast<float>(options.truncation * example.voxelSize)).levels;
+    Vec3i size = max(levels.size(), Vec3i{side, side, side});
+    const int halves = std::max(2, (options.size.z + side / 2 - 1) / (side / 2));
+    if (slabs) size.z = halves * (side / 2);
+    const auto cut = [&](int from, int height) {
+      Array3D<std::uint8_t> source({size.x, size.y, height});
+      for (std::size_t s = 0; s < source.count(); ++s) {
+        source.values()[s] = levels[levels.clamped(source.ijk(s) + Vec3i{0, 0, from})];
+      }
+      return source;
+    };
+    for (int slab = 0; slab < (slabs ? halves - 1 : 1); ++slab) {
+      trees.emplace_back(slabs ? cut(slab * (side / 2), side) : cut(0, size.z), side);
+    }
+    pyramid.emplace(cut(0, size.z), side);
+  }
+};
 
 /// One iteration of section 5.1 at one level of resolution.
 ///
@@ -39,11 +65,12 @@ Array3D<std::uint8_t> searchable(const DistanceField& example, double truncation
 /// its last cell is made; cells with an index 0 are made by the first blocks.
 class Pass {
  public:
-  Pass(const SearchTree& tree, const Vec3i& size, const BlocksOptions& options)
-      : tree_(tree),
-        source_(tree.pyramid().averages(tree.droppedLevels())),
-        step_(1 << tree.droppedLevels()),
-        half_(tree.blockSize() / 2),
+  /// `size` of the target at `level`, whose cells are 2^level finest samples.
+  Pass(const BlockSource& source, int level, const Vec3i& size, const BlocksOptions& options)
+      : source_(source.pyramid->averages(level)),
+        step_(1 << level),
+        half_(source.side / step_ / 2),
+        height_(source.slabs ? source.side / 2 : 0),
         options_(options) {
     for (int axis = 0; axis < 3; ++axis) {
       cells_[axis] = std::max(2, (size[axis] + half_ - 1) / half_);
@@ -51,21 +78,32 @@ class Pass {
     origins_ = Array3D<Vec3i>(cells_ * half_);
     target_ = Array3D<std::uint8_t>(origins_.size());
     made_ = Array3D<std::uint8_t>(origins_.size());
-    if (options.search == BlockSearch::Scan) {
-      lattice_ = Array3D<std::uint8_t>((source_.size() - Vec3i{1, 1, 1}) / step_ + Vec3i{1, 1, 1});
-      for (std::size_t s = 0; s < lattice_.count(); ++s) {
-        lattice_.values()[s] = source_[lattice_.ijk(s) * step_];
+    for (const SearchTree& tree : source.trees) {
+      if (options.search == BlockSearch::Tree) {
+        trees_.push_back(tree.dropLeaves(level));
+        continue;
       }
+      const Array3D<std::uint8_t>& averages = tree.pyramid().averages(level);
+      Array3D<std::uint8_t> lattice((averages.size() - Vec3i{1, 1, 1}) / step_ + Vec3i{1, 1, 1});
+      for (std::size_t s = 0; s < lattice.count(); ++s) {
+        lattice.values()[s] = averages[lattice.ijk(s) * step_];
+      }
+      lattices_.push_back(std::move(lattice));
     }
   }
 
-  /// Seeds the target with random samples of the example, or with nothing.
+  /// Seeds the target with random samples of the example (of the same height, where that is kept),
+  /// or with nothing.
   void seedRandomly() {
     const Random random(options_.seed, kSeedStream);
     parallelFor(0, target_.count(), 4096, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
-        const auto n = static_cast<std::uint32_t>(source_.count());
-        target_.values()[s] = source_.values()[random.below(n, s)];
+        Vec3i from;
+        for (int axis = 0; axis < 3; ++axis) {
+          from[axis] = static_cast<int>(random.below(source_.size()[axis], s, axis));
+        }
+        if (height_ > 0) from.z = std::min(target_.ijk(s).z * step_, source_.size().z - 1);
+        target_.values()[s] = source_[from];
       }
     });
     masked_ = options_.seeding == BlockSeeding::Masked;
@@ -126,7 +164,8 @@ class Pass {
         anyKnown = anyKnown || made_[x];
       }
     }
-    const Vec3i match = anyKnown ? bestMatch(query) : randomPosition(block);
+    const Vec3i match =
+        Vec3i{0, 0, block.z * height_} + (anyKnown ? bestMatch(query, block) : randomMatch(block));
     for (std::size_t s = 0; s < query.samples.count(); ++s) {
       const Vec3i within = query.samples.ijk(s);
       const Vec3i x = first + within;
@@ -137,28 +176,31 @@ class Pass {
     }
   }
 
-  /// The best block of the subsampled example, by its first fine sample.
-  Vec3i bestMatch(const BlockQuery<std::uint8_t>& query) const {
+  /// The best place in the slab that the block may come from, in finest samples.
+  Vec3i bestMatch(const BlockQuery<std::uint8_t>& query, const Vec3i& block) const {
+    const std::size_t slab = height_ > 0 ? block.z : 0;
     return options_.search == BlockSearch::Scan
-               ? linearScan(lattice_, query).position * step_
-               : tree_.findBest(query, {.positionStride = step_}).position;
+               ? linearScan(lattices_[slab], query).position * step_
+               : trees_[slab].findBest(query, {.positionStride = step_}).position;
   }
 
-  Vec3i randomPosition(const Vec3i& block) const {
+  /// Any place in the slab.
+  Vec3i randomMatch(const Vec3i& block) const {
     const Random random(options_.seed, kStartStream);
     const Vec3i last = source_.size() - Vec3i{1, 1, 1} * ((2 * half_ - 1) * step_ + 1);
     const std::size_t key = origins_.index(block * half_);
     Vec3i position;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < (height_ > 0 ? 2 : 3); ++axis) {
       position[axis] = static_cast<int>(random.below(last[axis] / step_ + 1, key, axis)) * step_;
     }
     return position;
   }
 
-  const SearchTree& tree_;
   const Array3D<std::uint8_t>& source_;  ///< averages of the level's cells, at every fine shift
-  Array3D<std::uint8_t> lattice_;        ///< the subsampled example itself, for scanning
-  int step_, half_;
+  std::vector<SearchTree> trees_;        ///< of the slabs, less their leaves
+  std::vector<Array3D<std::uint8_t>> lattices_;  ///< the subsampled slabs, for scanning
+  int step_, half_,
+      height_;  ///< finest samples a cell, samples half a block, between slabs (0: one slab)
   const BlocksOptions& options_;
   bool masked_ = false;
   Vec3i cells_;
@@ -221,19 +263,16 @@ SynthesisResult synthesizeBlocks(const DistanceField& example, const BlocksOptio
 
   SynthesisResult result;
   Array3D<Vec3i> origins;
-  std::optional<SearchTree> tree;
+  std::optional<BlockSource> source;
   for (int level = options.iterations - 1; level >= 0; --level) {
     const std::string stage = "matching blocks, level " +
                               std::to_string(options.iterations - level) + " of " +
                               std::to_string(options.iterations);
     progress.report(stage, 0);
     const int side = blockSide(example, options, level);
-    if (!tree || tree->blockSize() != side) {
-      tree.emplace(searchable(example, options.truncation, side), side);
-    }
-    const SearchTree coarse = tree->dropLeaves(level);
+    if (!source || source->side != side) source.emplace(example, side, options);
     const int cell = 1 << level;
-    Pass pass(coarse,
+    Pass pass(*source, level,
               {(options.size.x + cell - 1) / cell, (options.size.y + cell - 1) / cell,
                (options.size.z + cell - 1) / cell},
               options);

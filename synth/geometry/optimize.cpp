@@ -300,33 +300,6 @@ int defaultLevels(const DistanceField& example) {
 
 }  // namespace
 
-StationaryAxes findStationaryAxes(const DistanceField& example) {
-  StationaryAxes axes;
-  bool* flags[] = {&axes.x, &axes.y, &axes.z};
-  const Vec3i n = example.size();
-  for (int axis = 0; axis < 3; ++axis) {
-    // The occupancy of each third of the axis: where a third differs from the whole by more than
-    // half of the whole's spread, the axis has a place of its own for things.
-    double occupied[4] = {}, count[4] = {};
-    for (std::size_t s = 0; s < example.values.count(); ++s) {
-      const Vec3i p = example.values.ijk(s);
-      const int part = p[axis] * 4 / n[axis];
-      occupied[part] += example.values.values()[s] < 0;
-      count[part] += 1;
-    }
-    double low = 1, high = 0;
-    for (int part = 0; part < 4; ++part) {
-      if (count[part] == 0) continue;
-      low = std::min(low, occupied[part] / count[part]);
-      high = std::max(high, occupied[part] / count[part]);
-    }
-    const double mean = (occupied[0] + occupied[1] + occupied[2] + occupied[3]) /
-                        static_cast<double>(example.values.count());
-    *flags[axis] = high - low <= 0.5 * std::min(mean, 1 - mean) + 0.02;
-  }
-  return axes;
-}
-
 SynthesisResult synthesizeOptimized(const DistanceField& example, const OptimizeOptions& options,
                                     const Progress& progress) {
   check(example, options);

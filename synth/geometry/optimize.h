@@ -6,20 +6,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "synth/geometry/stationary.h"
 #include "synth/geometry/synthesize.h"
 
 namespace exemplar {
-
-/// Along which axes an example repeats itself, so that its parts may move along them.
-struct StationaryAxes {
-  bool x = true, y = true, z = true;
-  bool operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-  bool operator==(const StationaryAxes&) const = default;
-};
-
-/// Finds the axes along which the example is stationary: those along which its slices' occupancy
-/// and surface do not drift by more than slices of the same example do by chance.
-StationaryAxes findStationaryAxes(const DistanceField& example);
 
 struct OptimizeOptions {
   Vec3i size{0, 0, 0};  ///< of the result, samples; each component >= the patch's
