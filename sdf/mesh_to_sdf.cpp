@@ -4,6 +4,7 @@
 #include "sdf/mesh_to_sdf.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -13,7 +14,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "sdf/narrow_band.h"
+#include "sdf/flood_fill.h"
 #include "sdf/opening_caps.h"
 #include "sdf/ray_parity.h"
 #include "sdf/sample_distances.h"
@@ -81,22 +82,37 @@ void measure(const TriangleTree& surface, double limit, Array3D<float>& distance
   sampleDistances(surface, limit, {}, distances);
 }
 
+// Sets `inside` for a block of samples, at most 4 a side, that stand at low + ijk.
+template <class Test>
+void askAll(const Test& test, const Vec3i& low, const Vec3i& first, const Vec3i& end,
+            Array3D<std::uint8_t>& inside) {
+  std::array<Vec3d, 64> points;
+  std::array<std::uint8_t, 64> in;
+  std::size_t count = 0;
+  serpentine(first, end, [&](const Vec3i& ijk) { points[count++] = cast<double>(low + ijk); });
+  test.inside({points.data(), count}, {in.data(), count});
+  count = 0;
+  serpentine(first, end, [&](const Vec3i& ijk) { inside[ijk] = in[count++]; });
+}
+
 // Sets `inside` from a test whose answer only changes across the surface that `distances` (exact
-// up to 2 voxels) are measured from: asked once a block and where the surface may lie between
-// neighbours.
+// up to 2 voxels) are measured from.
 template <class Test>
 void spreadSigns(const Test& test, const Array3D<float>& distances, Array3D<std::uint8_t>& inside) {
-  forBlocks(distances.size(), [&](const Vec3i& low, const Vec3i& high) {
-    double before = -kInfinity;
-    bool in = false;
-    serpentine(low, high, [&](const Vec3i& ijk) {
-      // A surface that crosses the step is as near to both ends together as the step is long. Half
-      // a voxel on top covers what cutting crossing triangles into pieces may have lost.
-      const double d = distances[ijk];
-      if (before + d <= 1.5) in = test.inside(cast<double>(ijk));
-      before = d;
-      inside[ijk] = in;
-    });
+  forBlocks(distances.size(), 4, [&](const Vec3i& low, const Vec3i& high) {
+    // A surface that crosses the step from one sample to the next is as near to both together as
+    // the step is long. Half a voxel on top covers what cutting crossing triangles into pieces may
+    // have lost. So without a sample this near, one answer holds for the block.
+    float nearest = distances[low];
+    serpentine(low, high, [&](const Vec3i& ijk) { nearest = std::min(nearest, distances[ijk]); });
+    if (nearest <= 0.75f) {
+      askAll(test, {}, low, high, inside);
+      return;
+    }
+    const Vec3d p = cast<double>(low);
+    std::uint8_t in = 0;
+    test.inside({&p, 1}, {&in, 1});
+    serpentine(low, high, [&](const Vec3i& ijk) { inside[ijk] = in; });
   });
 }
 
@@ -110,17 +126,15 @@ void measureOpen(const SolidTest& solid, std::vector<Corners> triangles, double 
   const Vec3i low{-pad, -pad, -pad};
   const Vec3i size = distances.size() - low * 2;
   Array3D<std::uint8_t> in(size);
-  forBlocks(size, [&](const Vec3i& first, const Vec3i& end) {
-    serpentine(first, end,
-               [&](const Vec3i& ijk) { in[ijk] = solid.inside(cast<double>(low + ijk)); });
-  });
+  forBlocks(size, 4,
+            [&](const Vec3i& first, const Vec3i& end) { askAll(solid, low, first, end, in); });
   {
     Array3D<float> near(size);
     sampleDistances(TriangleTree(triangles), 2, low, near);
     const std::vector<Corners> caps = openingCaps(solid, low, in, near);
     triangles.insert(triangles.end(), caps.begin(), caps.end());
   }
-  forBlocks(distances.size(), [&](const Vec3i& first, const Vec3i& end) {
+  forBlocks(distances.size(), 8, [&](const Vec3i& first, const Vec3i& end) {
     serpentine(first, end, [&](const Vec3i& ijk) { inside[ijk] = in[ijk - low]; });
   });
   measure(TriangleTree(std::move(triangles)), limit, distances);

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "core/array3d.h"
-#include "sdf/solid_surface.h"
+#include "sdf/solid_test.h"
+#include "sdf/triangle_tree.h"
 
 namespace exemplar {
 

@@ -107,4 +107,8 @@ bool ParityTest::inside(const Vec3d& p) const {
   return 2 * votes > kRays;
 }
 
+void ParityTest::inside(std::span<const Vec3d> points, std::span<std::uint8_t> result) const {
+  for (std::size_t p = 0; p < points.size(); ++p) result[p] = inside(points[p]);
+}
+
 }  // namespace exemplar

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 
 #include "sdf/triangle_soup.h"
 
@@ -18,10 +20,12 @@ class ParityTest {
   explicit ParityTest(const TriangleSoup& soup);
   ~ParityTest();
 
-  /// Any number of threads may ask.
-  bool inside(const Vec3d& p) const;
+  /// Whether each point is inside. Any number of threads may ask.
+  void inside(std::span<const Vec3d> points, std::span<std::uint8_t> result) const;
 
  private:
+  bool inside(const Vec3d& p) const;
+
   struct Scene;
   std::unique_ptr<Scene> scene_;
 };

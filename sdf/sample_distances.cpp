@@ -12,7 +12,7 @@ namespace exemplar {
 void sampleDistances(const TriangleTree& surface, double limit, const Vec3i& low,
                      Array3D<float>& distances) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  forBlocks(distances.size(), [&](const Vec3i& first, const Vec3i& end) {
+  forBlocks(distances.size(), 8, [&](const Vec3i& first, const Vec3i& end) {
     const Vec3d middle =
         cast<double>(low) + (cast<double>(first) + cast<double>(end) - Vec3d{1, 1, 1}) * 0.5;
     const double reach = limit + length(middle - cast<double>(low + first));

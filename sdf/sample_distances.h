@@ -12,18 +12,17 @@
 namespace exemplar {
 
 /// Calls body(low, high) for each block of samples of a box of `size`, in parallel: [low, high), at
-/// most 8 a side.
+/// most `side` samples a side.
 template <class Body>
-void forBlocks(const Vec3i& size, const Body& body) {
-  constexpr int kSide = 8;
-  const auto blocks = [](int n) { return static_cast<std::size_t>(n / kSide + (n % kSide != 0)); };
+void forBlocks(const Vec3i& size, int side, const Body& body) {
+  const auto blocks = [&](int n) { return static_cast<std::size_t>(n / side + (n % side != 0)); };
   const std::size_t nx = blocks(size.x), ny = blocks(size.y), nz = blocks(size.z);
   parallelFor(0, nx * ny * nz, 1, [&](std::size_t b0, std::size_t b1) {
     for (std::size_t b = b0; b < b1; ++b) {
       const Vec3i low = Vec3i{static_cast<int>(b % nx), static_cast<int>(b / nx % ny),
                               static_cast<int>(b / (nx * ny))} *
-                        kSide;
-      body(low, min(low + Vec3i{kSide, kSide, kSide}, size));
+                        side;
+      body(low, min(low + Vec3i{side, side, side}, size));
     }
   });
 }

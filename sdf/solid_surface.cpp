@@ -18,16 +18,11 @@ namespace {
 
 // The longest edge of a piece at the samples, in voxels, and how much longer it may be for each
 // voxel that it is away from them.
-constexpr double kPiece = 0.5;
+constexpr double kPiece = 0.4;
 constexpr double kPiecePerVoxel = 0.25;
 // How far from a triangle its two sides are looked at, in voxels.
 constexpr double kSide = 1e-3;
 constexpr std::size_t kGrain = 256;
-
-Corners cornersOf(const TriangleSoup& soup, std::uint32_t t) {
-  const auto& [a, b, c] = soup.triangles[t];
-  return {soup.points[a], soup.points[b], soup.points[c]};
-}
 
 double longestEdge(const Corners& t) {
   return std::max({length(t[1] - t[0]), length(t[2] - t[1]), length(t[0] - t[2])});
@@ -102,8 +97,13 @@ Overlaps findOverlaps(const TriangleSoup& soup, const TriangleTree& tree) {
 // Decides which triangles, or pieces of them, bound the solid.
 class Sorter {
  public:
-  Sorter(const SolidTest& solid, const Vec3i& size, double reach, bool closed)
-      : solid_(solid), last_(cast<double>(size - Vec3i{1, 1, 1})), reach_(reach), closed_(closed) {}
+  Sorter(const SolidTest& solid, const TriangleTree& tree, const Vec3i& size, double reach,
+         bool closed)
+      : solid_(solid),
+        tree_(tree),
+        last_(cast<double>(size - Vec3i{1, 1, 1})),
+        reach_(reach),
+        closed_(closed) {}
 
   // How far the box of a triangle is from the samples, in voxels.
   double away(const Corners& t) const {
@@ -112,52 +112,105 @@ class Sorter {
   }
   bool outOfReach(const Corners& t) const { return away(t) > reach_; }
 
-  // Whether the solid is on one side only of a triangle, at the point a share `s` of the way from
-  // its middle to corner `c`.
-  bool bounds(const Corners& t, int c = 0, double s = 0) const {
-    const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
-    const double doubleArea = length(normal);
-    const Vec3d middle = (t[0] + t[1] + t[2]) / 3.0;
-    const Vec3d p = middle + (t[c] - middle) * s;
-    // Small triangles are looked at from nearer, so that the points stay beside them.
-    const Vec3d step =
-        normal * (std::clamp(0.05 * std::sqrt(doubleArea), 1e-6, kSide) / doubleArea);
-    return solid_.inside(p + step) != solid_.inside(p - step);
+  // Whether the solid is on one side only of a triangle, at its middle.
+  bool bounds(const Corners& t) const {
+    Looks looks;
+    looks.add(middleOf(t), stepFrom(t));
+    return looks.ask(solid_)[0];
   }
 
-  // Appends the pieces of `t` that bound the solid. `others` are the triangles that overlap it.
+  // Appends the pieces of a whole triangle that bound the solid. `others` are the triangles that
+  // overlap it.
   void sort(const Corners& t, std::span<const std::uint32_t> others,
             std::vector<Corners>& out) const {
-    const double distance = away(t);
-    if (distance > reach_) return;
-    std::vector<std::uint32_t> crossing;
-    const bool small = longestEdge(t) <= kPiece + kPiecePerVoxel * distance;
-    if (!small) {
-      for (const std::uint32_t u : others)
-        if (trianglesOverlap(t, solid_.tree().triangle(u))) crossing.push_back(u);
+    if (!closed_ && others.empty()) {
+      // The most common case in one go: neither crossed nor beside an opening.
+      Looks looks;
+      const Vec3d step = stepFrom(t);
+      looks.add(middleOf(t), step);
+      for (const Vec3d& place : nearCorners(t)) looks.add(place, step);
+      const auto at = looks.ask(solid_);
+      if (at[1] == at[0] && at[2] == at[0] && at[3] == at[0]) {
+        if (at[0]) out.push_back(t);
+        return;
+      }
     }
-    const bool keep = bounds(t);
-    const bool uniform = small || (crossing.empty() && (closed_ || agrees(t, keep)));
-    if (uniform) {
-      if (keep) out.push_back(t);
-      return;
-    }
-    const Vec3d ab = (t[0] + t[1]) * 0.5, bc = (t[1] + t[2]) * 0.5, ca = (t[2] + t[0]) * 0.5;
-    sort({t[0], ab, ca}, crossing, out);
-    sort({ab, t[1], bc}, crossing, out);
-    sort({ca, bc, t[2]}, crossing, out);
-    sort({ab, bc, ca}, crossing, out);
+    sortPart(t, bounds(t), others, out);
   }
 
  private:
-  // Beside an opening the winding number changes along a triangle; look near its corners too.
-  bool agrees(const Corners& t, bool keep) const {
-    for (int c = 0; c < 3; ++c)
-      if (bounds(t, c, 0.9) != keep) return false;
-    return true;
+  // The same for a part of a triangle; `middle` is the answer at its middle.
+  void sortPart(const Corners& t, bool middle, std::span<const std::uint32_t> others,
+                std::vector<Corners>& out) const {
+    const double distance = away(t);
+    if (distance > reach_) return;
+    std::vector<std::uint32_t> crossing;
+    bool uniform = longestEdge(t) <= kPiece + kPiecePerVoxel * distance;
+    if (!uniform) {
+      for (const std::uint32_t u : others)
+        if (trianglesOverlap(t, tree_.triangle(u))) crossing.push_back(u);
+      uniform = crossing.empty() && (closed_ || sameAtCorners(t, middle));
+    }
+    if (uniform) {
+      if (middle) out.push_back(t);
+      return;
+    }
+    const Vec3d ab = (t[0] + t[1]) * 0.5, bc = (t[1] + t[2]) * 0.5, ca = (t[2] + t[0]) * 0.5;
+    const std::array<Corners, 4> parts{
+        {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}}};
+    // All four are asked at once, which costs little more than one.
+    Looks looks;
+    for (const Corners& part : parts) looks.add(middleOf(part), stepFrom(part));
+    const std::array<bool, 4> middles = looks.ask(solid_);
+    for (int part = 0; part < 4; ++part) sortPart(parts[part], middles[part], crossing, out);
   }
 
+  // Looks at both sides of up to four places.
+  class Looks {
+   public:
+    void add(const Vec3d& place, const Vec3d& step) {
+      points_[count_++] = place + step;
+      points_[count_++] = place - step;
+    }
+    // Whether the solid is on one side only.
+    std::array<bool, 4> ask(const SolidTest& solid) const {
+      std::array<std::uint8_t, 8> in{};
+      solid.inside({points_.data(), count_}, {in.data(), count_});
+      return {in[0] != in[1], in[2] != in[3], in[4] != in[5], in[6] != in[7]};
+    }
+
+   private:
+    std::array<Vec3d, 8> points_;
+    std::size_t count_ = 0;
+  };
+
+  static Vec3d middleOf(const Corners& t) { return (t[0] + t[1] + t[2]) / 3.0; }
+
+  static std::array<Vec3d, 3> nearCorners(const Corners& t) {
+    const Vec3d m = middleOf(t) * 0.1;
+    return {t[0] * 0.9 + m, t[1] * 0.9 + m, t[2] * 0.9 + m};
+  }
+
+  // From a triangle to where one of its sides is looked at: nearer for small ones, so that the
+  // place stays beside the triangle.
+  static Vec3d stepFrom(const Corners& t) {
+    const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
+    const double doubleArea = length(normal);
+    if (!(doubleArea > 0)) return {};
+    return normal * (std::clamp(0.05 * std::sqrt(doubleArea), 1e-6, kSide) / doubleArea);
+  }
+
+  // Beside an opening the winding number changes along a triangle.
+  bool sameAtCorners(const Corners& t, bool middle) const {
+    Looks looks;
+    for (const Vec3d& place : nearCorners(t)) looks.add(place, stepFrom(t));
+    const auto at = looks.ask(solid_);
+    return at[0] == middle && at[1] == middle && at[2] == middle;
+  }
+
+ private:
   const SolidTest& solid_;
+  const TriangleTree& tree_;
   Vec3d last_;
   double reach_;
   bool closed_;
@@ -187,23 +240,19 @@ std::vector<std::uint32_t> partsOf(const TriangleSoup& soup, const Overlaps& ove
 
 }  // namespace
 
-SolidTest::SolidTest(const TriangleSoup& soup) {
-  std::vector<Corners> corners(soup.triangles.size());
-  for (std::uint32_t t = 0; t < corners.size(); ++t) corners[t] = cornersOf(soup, t);
-  tree_ = std::make_unique<TriangleTree>(std::move(corners));
-}
-
-double SolidTest::depth(const Vec3d& p) const { return std::abs(tree_->windingNumber(p)) - 0.5; }
-
 std::vector<Corners> boundingTriangles(const TriangleSoup& soup, const SolidTest& solid,
                                        const Vec3i& size, double reach) {
-  const TriangleTree& tree = solid.tree();
-  const Sorter sorter(solid, size, reach, soup.closed);
+  std::vector<Corners> all(soup.triangles.size());
+  for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = cornersOf(soup, t);
+  const TriangleTree tree(std::move(all));
+  const Sorter sorter(solid, tree, size, reach, soup.closed);
   const Overlaps overlaps = findOverlaps(soup, tree);
   const std::size_t count = soup.triangles.size();
   if (!soup.closed) {
     return gather<Corners>(count, [&](std::uint32_t t, std::vector<Corners>& out) {
-      sorter.sort(tree.triangle(t), overlaps.of(t), out);
+      const Corners& corners = tree.triangle(t);
+      if (sorter.outOfReach(corners)) return;
+      sorter.sort(corners, overlaps.of(t), out);
     });
   }
   // One look at each part, at its largest triangle, where the look is surest.
@@ -225,9 +274,10 @@ std::vector<Corners> boundingTriangles(const TriangleSoup& soup, const SolidTest
   });
   return gather<Corners>(count, [&](std::uint32_t t, std::vector<Corners>& out) {
     const Corners& corners = tree.triangle(t);
+    if (sorter.outOfReach(corners)) return;
     if (part[t] == TriangleSoup::kNone) {
       sorter.sort(corners, overlaps.of(t), out);
-    } else if (bounds[part[t]] && !sorter.outOfReach(corners)) {
+    } else if (bounds[part[t]]) {
       out.push_back(corners);
     }
   });

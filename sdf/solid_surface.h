@@ -3,34 +3,17 @@
 
 #pragma once
 
-#include <memory>
 #include <vector>
 
+#include "sdf/solid_test.h"
 #include "sdf/triangle_soup.h"
 #include "sdf/triangle_tree.h"
 
 namespace exemplar {
 
-/// What is inside a soup of triangles, by its generalized winding number: where it is more than 1/2
-/// in size. Overlapping solids are one solid, solids that are turned inside out are solids, a
-/// hollow whose walls face it is outside, and where the triangles leave an opening, the surface on
-/// which the winding number is 1/2 closes it.
-class SolidTest {
- public:
-  explicit SolidTest(const TriangleSoup& soup);
-
-  bool inside(const Vec3d& p) const { return depth(p) > 0; }
-  /// Positive inside, continuous off the triangles: |winding number| - 1/2.
-  double depth(const Vec3d& p) const;
-  const TriangleTree& tree() const { return *tree_; }
-
- private:
-  std::unique_ptr<TriangleTree> tree_;
-};
-
 /// The part of the triangles that has the solid on one side only: what lies buried where solids
 /// overlap, or is a sheet without thickness, is left out. Triangles that cross others are cut
-/// into pieces of half a voxel along the crossing, so that the part's border is right to within a
+/// into pieces of 0.4 voxels along the crossing, so that the part's border is right to within a
 /// quarter of a voxel; far from the samples the pieces are larger.
 ///
 /// Index space: samples stand at whole numbers from (0, 0, 0) to `size`. Triangles farther than

@@ -43,9 +43,16 @@ bool trianglesOverlap(const Corners& a, const Corners& b) {
   };
   const Vec3d pn = cross(pe[0], pe[1]), qn = cross(qe[0], qe[1]);
   if (separates(pn, slack) || separates(qn, slack)) return false;
+  // Two edges in one face's plane have its normal for their product.
+  const auto parallel = [](const Vec3d& u, const Vec3d& v) {
+    const Vec3d w = cross(u, v);
+    return dot(w, w) <= 1e-18 * dot(u, u) * dot(v, v);
+  };
   for (const Vec3d& e : pe)
-    for (const Vec3d& f : qe)
-      if (separates(cross(e, f), -slack)) return false;
+    for (const Vec3d& f : qe) {
+      const Vec3d axis = cross(e, f);
+      if (separates(axis, parallel(axis, pn) || parallel(axis, qn) ? slack : -slack)) return false;
+    }
   for (const Vec3d& e : pe)
     if (separates(cross(pn / size, e), -slack)) return false;
   for (const Vec3d& f : qe)

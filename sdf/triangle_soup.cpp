@@ -154,6 +154,30 @@ void orient(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) 
   }
 }
 
+// Numbers the components and each triangle's.
+void connect(TriangleSoup& soup) {
+  std::vector<std::uint32_t> parent(soup.points.size());
+  for (std::uint32_t p = 0; p < parent.size(); ++p) parent[p] = p;
+  const auto root = [&](std::uint32_t p) {
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
+    return p;
+  };
+  for (const auto& [a, b, c] : soup.triangles) {
+    const std::uint32_t r = root(a);
+    parent[root(b)] = r;
+    parent[root(c)] = r;
+  }
+  std::vector<std::uint32_t> number(soup.points.size(), TriangleSoup::kNone);
+  soup.component.resize(soup.triangles.size());
+  std::uint32_t count = 0;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    std::uint32_t& n = number[root(soup.triangles[t][0])];
+    if (n == TriangleSoup::kNone) n = count++;
+    soup.component[t] = n;
+  }
+  soup.componentClosed.assign(count, 1);
+}
+
 }  // namespace
 
 TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale) {
@@ -165,6 +189,7 @@ TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scal
     for (std::uint32_t& v : t) v = indices[v];
   dropDegenerateAndRepeated(soup.points, soup.triangles);
   orient(soup.points, soup.triangles);
+  connect(soup);
   const std::vector<Side> sides = sortedSides(soup.triangles);
   soup.closed = soup.even = true;
   constexpr std::uint32_t kNone = TriangleSoup::kNone;
@@ -173,6 +198,7 @@ TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scal
     int net = 0;
     for (std::size_t i = b; i < e; ++i) net += sides[i].upwards ? 1 : -1;
     soup.closed &= net == 0;
+    if (net != 0) soup.componentClosed[soup.component[sides[b].triangle]] = 0;
     soup.even &= (e - b) % 2 == 0;
     if (e - b == 2 && net == 0) {
       soup.neighbours[sides[b].triangle][sides[b].side] = sides[b + 1].triangle;

@@ -9,6 +9,7 @@
 
 #include "core/vec.h"
 #include "mesh/triangle_mesh.h"
+#include "sdf/triangle_tree.h"
 
 namespace exemplar {
 
@@ -29,8 +30,19 @@ struct TriangleSoup {
   /// meet there and face the same way; else `kNone`.
   std::vector<std::array<std::uint32_t, 3>> neighbours;
 
+  /// For each triangle its component, connected through common points, numbered by first triangle;
+  /// and for each component whether it is closed by itself.
+  std::vector<std::uint32_t> component;
+  std::vector<std::uint8_t> componentClosed;
+
   static constexpr std::uint32_t kNone = 0xffffffff;
 };
+
+/// The corners of triangle `t`.
+inline Corners cornersOf(const TriangleSoup& soup, std::uint32_t t) {
+  const auto& [a, b, c] = soup.triangles[t];
+  return {soup.points[a], soup.points[b], soup.points[c]};
+}
 
 /// O(n log n) for n triangles; positions are (xyz - origin) / scale.
 TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale);

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <utility>
+
+#include "sdf/winding_lanes.h"
 
 namespace exemplar {
 namespace {
@@ -36,16 +38,6 @@ std::uint32_t leafCount(std::uint32_t n) { return leafCounts(n).first; }
 double squaredBoxDistance(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
   const Vec3d d = max(max(low - p, p - high), Vec3d{0, 0, 0});
   return dot(d, d);
-}
-
-// Solid angle over 4 pi, by van Oosterom and Strackee's formula (1983).
-double solidAngle(const Corners& t, const Vec3d& p) {
-  const Vec3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
-  const double la = length(a), lb = length(b), lc = length(c);
-  const double numerator = dot(a, cross(b, c));
-  const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  if (numerator == 0) return 0;  // in the triangle's plane
-  return std::atan2(numerator, denominator) * (0.5 * std::numbers::inv_pi);
 }
 
 }  // namespace
@@ -82,27 +74,6 @@ double squaredDistance(const Vec3d& p, const Corners& t) {
   return dot(q, q);
 }
 
-// The moments times the derivatives of d / |d|^3, the field of a single area vector: each term is
-// symmetric in its indices.
-double TriangleTree::expansion(const Moments& m, const Vec3d& d, double r2) {
-  const double inverse2 = 1 / r2, inverse3 = inverse2 * std::sqrt(inverse2);
-  const double x = d.x, y = d.y, z = d.z, xx = x * x, yy = y * y, zz = z * z;
-  const auto& f = m.first;
-  const double trace = f[0] + f[1] + f[2];
-  const double quadratic =
-      f[0] * xx + f[1] * yy + f[2] * zz + 2 * (f[3] * x * y + f[4] * x * z + f[5] * y * z);
-  const auto& s = m.second;
-  const double traces =
-      (s[0] + s[5] + s[7]) * x + (s[1] + s[3] + s[8]) * y + (s[2] + s[4] + s[6]) * z;
-  const double cubic =
-      s[0] * xx * x + s[1] * yy * y + s[2] * zz * z +
-      3 * (xx * (s[3] * y + s[4] * z) + yy * (s[5] * x + s[6] * z) + zz * (s[7] * x + s[8] * y)) +
-      6 * s[9] * x * y * z;
-  return (dot(m.area, d) + trace - (3 * quadratic + 4.5 * traces) * inverse2 +
-          7.5 * cubic * inverse2 * inverse2) *
-         inverse3;
-}
-
 TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
   const auto n = static_cast<std::uint32_t>(triangles_.size());
   if (n == 0) return;
@@ -113,6 +84,10 @@ TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::mov
   moments_.resize(nodes_.size());
   build(0, 0, n);
 }
+
+TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
+TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
+TriangleTree::~TriangleTree() = default;
 
 void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
   Node& n = nodes_[node];
@@ -163,7 +138,7 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
 
 void TriangleTree::setMoments(std::uint32_t node) {
   const Node& n = nodes_[node];
-  Moments& m = moments_[node];
+  ClusterMoments& m = moments_[node];
   Vec3d weighted{};
   double weight = 0;
   for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
@@ -210,7 +185,7 @@ void TriangleTree::setMoments(std::uint32_t node) {
     m.second[8] += (zz * a.y + 2 * yz * a.z) / 3;
     m.second[9] += (xy * a.z + xz * a.y + yz * a.x) / 3;
   }
-  m.reach2 = kFar * kFar * radius2;
+  m.radius = std::sqrt(radius2);
 }
 
 double TriangleTree::distance(const Vec3d& p, double limit) const {
@@ -250,27 +225,47 @@ double TriangleTree::distance(const Vec3d& p, double limit) const {
 }
 
 double TriangleTree::windingNumber(const Vec3d& p) const {
-  if (nodes_.empty()) return 0;
-  double near = 0, far = 0;
-  std::array<std::uint32_t, kMaxDepth> stack;
-  std::size_t depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t node = stack[--depth];
-    const Node& n = nodes_[node];
-    const Moments& m = moments_[node];
-    const Vec3d d = m.center - p;
-    const double r2 = dot(d, d);
-    if (r2 > m.reach2) {
-      far += expansion(m, d, r2);
-    } else if (n.right == 0) {
-      for (std::uint32_t i = n.first; i < n.first + n.count; ++i) near += solidAngle(leaves_[i], p);
-    } else {
-      stack[depth++] = n.right;
-      stack[depth++] = node + 1;
-    }
+  double result = 0;
+  windingNumbers({&p, 1}, {&result, 1});
+  return result;
+}
+
+void TriangleTree::windingNumbers(std::span<const Vec3d> points, std::span<double> result) const {
+  if (nodes_.empty()) {
+    std::fill(result.begin(), result.end(), 0.0);
+    return;
   }
-  return near + far * (0.25 * std::numbers::inv_pi);
+  for (std::size_t begin = 0; begin < points.size(); begin += WindingLanes::kMost) {
+    const auto some =
+        points.subspan(begin, std::min<std::size_t>(WindingLanes::kMost, points.size() - begin));
+    Vec3d low = some[0], high = some[0];
+    for (const Vec3d& p : some) {
+      low = min(low, p);
+      high = max(high, p);
+    }
+    const Vec3d middle = (low + high) * 0.5;
+    const double radius = length(high - middle);
+    WindingLanes lanes(some.data(), static_cast<int>(some.size()));
+    std::array<std::uint32_t, kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const std::uint32_t node = stack[--depth];
+      const Node& n = nodes_[node];
+      const ClusterMoments& m = moments_[node];
+      const Vec3d d = m.center - middle;
+      const double reach = kFar * m.radius + radius;  // far for all of the points
+      if (dot(d, d) > reach * reach) {
+        lanes.add(m);
+      } else if (n.right == 0) {
+        for (std::uint32_t i = n.first; i < n.first + n.count; ++i) lanes.add(leaves_[i]);
+      } else {
+        stack[depth++] = n.right;
+        stack[depth++] = node + 1;
+      }
+    }
+    lanes.finish(result.data() + begin);
+  }
 }
 
 void TriangleTree::visitBox(const Vec3d& low, const Vec3d& high,

@@ -13,6 +13,8 @@
 
 namespace exemplar {
 
+struct ClusterMoments;
+
 /// The corners of a triangle.
 using Corners = std::array<Vec3d, 3>;
 
@@ -22,6 +24,9 @@ using Corners = std::array<Vec3d, 3>;
 class TriangleTree {
  public:
   explicit TriangleTree(std::vector<Corners> triangles);
+  TriangleTree(TriangleTree&&) noexcept;
+  TriangleTree& operator=(TriangleTree&&) noexcept;
+  ~TriangleTree();
 
   std::size_t count() const { return triangles_.size(); }
   /// Triangle `t` in the order of the constructor's argument.
@@ -42,6 +47,10 @@ class TriangleTree {
   /// none that grows towards the surface.
   double windingNumber(const Vec3d& p) const;
 
+  /// The same at many points. Those that stand together, as the samples of a block do, share the
+  /// way through the tree and are about ten times as fast as one by one.
+  void windingNumbers(std::span<const Vec3d> points, std::span<double> result) const;
+
   /// Calls `visit` with each triangle whose bounding box meets the box.
   void visitBox(const Vec3d& low, const Vec3d& high,
                 const std::function<void(std::uint32_t)>& visit) const;
@@ -53,24 +62,14 @@ class TriangleTree {
     std::uint32_t count = 0;  // triangles below this node
     std::uint32_t right = 0;  // the right child; the left one is the next node; 0: a leaf
   };
-  // A cluster seen from afar: moments of its area vectors a over x, the position from `center`.
-  struct Moments {
-    Vec3d center;
-    double reach2 = 0;                // squared distance within which the expansion is not used
-    Vec3d area;                       // sum of a
-    std::array<double, 6> first{};    // sum of x a, symmetric part: xx yy zz xy xz yz
-    std::array<double, 10> second{};  // sum of x x a: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
-  };
-
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   void setMoments(std::uint32_t node);
-  static double expansion(const Moments& m, const Vec3d& d, double r2);
 
   std::vector<Corners> triangles_;
   std::vector<std::uint32_t> order_;  // triangles as the leaves hold them
   std::vector<Corners> leaves_;       // their corners in that order
   std::vector<Node> nodes_;
-  std::vector<Moments> moments_;
+  std::vector<ClusterMoments> moments_;
 };
 
 /// The squared distance of `p` from a triangle, which may be degenerate.

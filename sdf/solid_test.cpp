@@ -1,0 +1,116 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "sdf/solid_test.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "sdf/triangle_tree.h"
+
+namespace exemplar {
+namespace {
+
+// One open component, outwards.
+struct Part {
+  std::vector<Corners> triangles;
+  Box3d box;
+};
+
+// Six times the volume between the triangles and the middle of their box: negative where they are
+// turned inside out.
+double enclosedVolume(const Part& part) {
+  const Vec3d middle = part.box.center();
+  double sum = 0;
+  for (const auto& [a, b, c] : part.triangles)
+    sum += dot(a - middle, cross(b - middle, c - middle));
+  return sum;
+}
+
+// Whether all triangles lie in one plane, as far as rounding tells.
+bool isFlat(const Part& part) {
+  Vec3d normal{};
+  double longest = 0;
+  for (const auto& [a, b, c] : part.triangles) {
+    const Vec3d n = cross(b - a, c - a);
+    if (dot(n, n) > longest) {
+      longest = dot(n, n);
+      normal = normalized(n);
+    }
+  }
+  const double allowed = 1e-9 * length(part.box.size());
+  const Vec3d at = part.triangles[0][0];
+  for (const Corners& t : part.triangles)
+    for (const Vec3d& corner : t)
+      if (std::abs(dot(corner - at, normal)) > allowed) return false;
+  return true;
+}
+
+}  // namespace
+
+struct SolidTest::Parts {
+  TriangleTree closed{{}};         // all closed components
+  TriangleTree open{{}};           // all open ones, where there are several
+  std::vector<TriangleTree> each;  // the open ones that are not flat
+  TriangleTree boxes{{}};          // their boxes: each as a triangle between two corners
+};
+
+SolidTest::SolidTest(const TriangleSoup& soup) : parts_(std::make_unique<Parts>()) {
+  std::vector<Corners> closed;
+  std::vector<Part> open(soup.componentClosed.size());
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    const Corners corners = cornersOf(soup, t);
+    const std::uint32_t component = soup.component[t];
+    if (soup.componentClosed[component]) {
+      closed.push_back(corners);
+      continue;
+    }
+    open[component].triangles.push_back(corners);
+    for (const Vec3d& p : corners) open[component].box.add(p);
+  }
+  parts_->closed = TriangleTree(std::move(closed));
+  std::erase_if(open, [](const Part& part) { return part.triangles.empty(); });
+
+  std::vector<Corners> all, boxes;
+  for (Part& part : open) {
+    if (enclosedVolume(part) < 0)
+      for (Corners& t : part.triangles) std::swap(t[1], t[2]);
+    if (open.size() > 1) all.insert(all.end(), part.triangles.begin(), part.triangles.end());
+  }
+  parts_->open = TriangleTree(std::move(all));
+  std::erase_if(open, isFlat);
+  for (Part& part : open) {
+    boxes.push_back({part.box.min, part.box.max, part.box.min});
+    parts_->each.emplace_back(std::move(part.triangles));
+  }
+  parts_->boxes = TriangleTree(std::move(boxes));
+}
+
+SolidTest::~SolidTest() = default;
+
+void SolidTest::inside(std::span<const Vec3d> points, std::span<std::uint8_t> result) const {
+  std::array<double, 64> winding;
+  for (std::size_t begin = 0; begin < points.size(); begin += winding.size()) {
+    const auto some = points.subspan(begin, std::min(winding.size(), points.size() - begin));
+    std::uint8_t* in = result.data() + begin;
+    std::fill_n(in, some.size(), std::uint8_t{0});
+    const auto ask = [&](const TriangleTree& tree, bool anyWay) {
+      tree.windingNumbers(some, {winding.data(), some.size()});
+      for (std::size_t p = 0; p < some.size(); ++p)
+        in[p] |= (anyWay ? std::abs(winding[p]) : winding[p]) > 0.5;
+    };
+    if (parts_->closed.count() > 0) ask(parts_->closed, true);
+    if (parts_->open.count() > 0) ask(parts_->open, false);
+    if (parts_->each.empty()) continue;
+    // Outside its convex hull no component winds around a point by more than 1/2.
+    Box3d box;
+    for (const Vec3d& p : some) box.add(p);
+    parts_->boxes.visitBox(box.min, box.max,
+                           [&](std::uint32_t part) { ask(parts_->each[part], false); });
+  }
+}
+
+}  // namespace exemplar

@@ -1,0 +1,39 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/vec.h"
+#include "sdf/triangle_soup.h"
+
+namespace exemplar {
+
+/// What is inside a soup of triangles, by its generalized winding number (`TriangleTree`).
+///
+/// A point is inside where the winding number of all closed components together is more than 1/2 in
+/// size: overlapping solids are one solid, solids that are turned inside out are solids, and a
+/// hollow whose walls face it is outside. It is inside, too, where the winding number of one open
+/// component alone, or of all open components together, is more than 1/2: the surface on which it
+/// is 1/2 closes the opening. One by one, because beside an open component the winding number is
+/// negative, so that in the sum a stone without a bottom would dig a ditch into the floor on which
+/// it stands; together, because parts that were never joined may enclose a solid only together.
+/// Open components that are turned inside out are turned back first. Flat ones enclose nothing.
+class SolidTest {
+ public:
+  explicit SolidTest(const TriangleSoup& soup);
+  ~SolidTest();
+
+  /// Whether each point is inside; fastest for points that stand together. Any number of threads
+  /// may ask.
+  void inside(std::span<const Vec3d> points, std::span<std::uint8_t> result) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace exemplar
