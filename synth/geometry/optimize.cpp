@@ -373,6 +373,10 @@ SynthesisResult synthesizeOptimized(const DistanceField& example, const Optimize
   }
   for (float& v : wanted.values()) v = std::clamp(v, -kSeamTruncation, kSeamTruncation);
   refineSeams(copied, wanted, origins, {}, progress);
+  if (progress.cancelled()) {
+    result.status = SynthesisStatus::Cancelled;
+    return result;
+  }
   result.origins = std::move(origins);
   result.field = example;
   result.field.values = Array3D<float>(options.size);

@@ -12,7 +12,7 @@
 namespace exemplar {
 
 struct OptimizeOptions {
-  Vec3i size{0, 0, 0};  ///< of the result, samples; each component >= the patch's
+  Vec3i size{0, 0, 0};  ///< of the result, samples; each component >= 1
   std::uint64_t seed = 0;
   int patch = 7;  ///< samples a side, 3..15; along a thinner axis its whole thickness
   std::optional<int>

@@ -1,0 +1,152 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/optimize.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "core/error.h"
+#include "tests/synth/fields.h"
+
+namespace exemplar {
+namespace {
+
+using namespace testing;
+
+OptimizeOptions sized(const Vec3i& size) {
+  OptimizeOptions options;
+  options.size = size;
+  options.rounds = 3;
+  return options;
+}
+
+TEST(Optimize, SamplesAreTheExamplesAtTheirOrigins) {
+  for (const DistanceField& example : {balls({28, 28, 28}, 4, 1), ground({32, 32, 20}, 2)}) {
+    const SynthesisResult result = synthesizeOptimized(example, sized({34, 30, 20}));
+    EXPECT_EQ(result.status, SynthesisStatus::Complete);
+    EXPECT_EQ(result.field.size(), (Vec3i{34, 30, 20}));
+    EXPECT_GT(result.matches, 0);
+    EXPECT_EQ(samplesNotCopied(example, result), 0);
+  }
+}
+
+TEST(Optimize, SameSeedSameBytesAtAnyNumberOfThreads) {
+  const DistanceField example = balls({32, 32, 32}, 4, 1);
+  SynthesisResult one, eight;
+  withThreads(1, [&] { one = synthesizeOptimized(example, sized({40, 36, 32})); });
+  withThreads(8, [&] { eight = synthesizeOptimized(example, sized({40, 36, 32})); });
+  EXPECT_EQ(one.origins, eight.origins);
+  EXPECT_EQ(one.field.values, eight.field.values);
+}
+
+TEST(Optimize, AnotherSeedGivesAnotherResult) {
+  const DistanceField example = balls({28, 28, 28}, 4, 1);
+  OptimizeOptions options = sized({28, 28, 28});
+  const SynthesisResult first = synthesizeOptimized(example, options);
+  options.seed = 1;
+  EXPECT_NE(first.field.values, synthesizeOptimized(example, options).field.values);
+}
+
+TEST(Optimize, AConstantExampleGivesAConstant) {
+  for (const float value : {-3.0f, 5.5f}) {
+    const SynthesisResult result =
+        synthesizeOptimized(constant({16, 16, 16}, value), sized({21, 18, 17}));
+    for (const float v : result.field.values.values()) ASSERT_EQ(v, value);
+  }
+}
+
+TEST(Optimize, SidesInAirStayInAir) {
+  // One ball with air all around, made twice as long: nothing solid may touch the box.
+  DistanceField example = constant({24, 24, 24}, 0);
+  for (std::size_t s = 0; s < example.values.count(); ++s) {
+    const Vec3d d = cast<double>(example.values.ijk(s)) - Vec3d{11.5, 11.5, 11.5};
+    example.values.values()[s] = static_cast<float>(length(d)) - 8;
+  }
+  const Vec3i size{48, 24, 24};
+  const SynthesisResult result = synthesizeOptimized(example, sized(size));
+  std::int64_t solid = 0, outside = 0;
+  for (std::size_t s = 0; s < result.origins.count(); ++s) {
+    const Vec3i p = result.origins.ijk(s);
+    const bool side = p.x == 0 || p.y == 0 || p.z == 0 || p.x == size.x - 1 || p.y == size.y - 1 ||
+                      p.z == size.z - 1;
+    solid += result.field.values.values()[s] < 0;
+    outside += side && result.field.values.values()[s] < 0;
+  }
+  EXPECT_GT(solid, 1000);
+  EXPECT_EQ(outside, 0);
+}
+
+TEST(Optimize, GroundStaysGround) {
+  const DistanceField example = ground({32, 32, 24}, 1);
+  const SynthesisResult result = synthesizeOptimized(example, sized({48, 40, 24}));
+  for (int j = 0; j < 40; ++j) {
+    for (int i = 0; i < 48; ++i) {
+      ASSERT_LT(result.field.values(i, j, 0), 0);
+      ASSERT_GT(result.field.values(i, j, 23), 0);
+    }
+  }
+}
+
+TEST(Optimize, MakesSmallAndOddSizes) {
+  const DistanceField example = balls({22, 19, 17}, 4, 1);
+  for (const Vec3i& size : {Vec3i{7, 7, 7}, Vec3i{1, 1, 1}, Vec3i{3, 21, 9}, Vec3i{31, 8, 13}}) {
+    const SynthesisResult result = synthesizeOptimized(example, sized(size));
+    EXPECT_EQ(result.field.size(), size);
+    EXPECT_EQ(samplesNotCopied(example, result), 0);
+  }
+}
+
+TEST(Optimize, TakesThinExamples) {
+  for (const Vec3i& size : {Vec3i{24, 24, 2}, Vec3i{1, 20, 20}, Vec3i{5, 5, 5}}) {
+    const DistanceField example = balls(size, 4, 1);
+    const SynthesisResult result = synthesizeOptimized(example, sized({20, 20, 8}));
+    EXPECT_EQ(result.field.size(), (Vec3i{20, 20, 8}));
+    EXPECT_EQ(samplesNotCopied(example, result), 0);
+  }
+}
+
+TEST(Optimize, EndsEarlyInEachStageWhenCancelled) {
+  const DistanceField example = balls({34, 24, 24}, 4, 1);
+  for (const char* stage : {"level 1 of 2", "level 2 of 2", "matching", "seams"}) {
+    CancelAfter cancel(2, stage);
+    EXPECT_EQ(synthesizeOptimized(example, sized({30, 20, 20}), cancel.progress()).status,
+              SynthesisStatus::Cancelled)
+        << stage;
+    EXPECT_TRUE(cancel.happened()) << stage;
+  }
+}
+
+TEST(Optimize, RefusesOptionsOutOfRange) {
+  const DistanceField example = balls({16, 16, 16}, 4, 1);
+  const auto refused = [&](const auto& change, const std::string& word) {
+    OptimizeOptions options = sized({16, 16, 16});
+    change(options);
+    try {
+      synthesizeOptimized(example, options);
+      return false;
+    } catch (const InputError& error) {
+      return std::string(error.what()).find(word) != std::string::npos;
+    }
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(refused([](OptimizeOptions&) {}, ""));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.size.z = 0; }, "size"));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.size = {30000, 30000, 30000}; }, "memory"));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.patch = 2; }, "patch"));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.patch = 16; }, "patch"));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.levels = 0; }, "levels"));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.levels = 9; }, "levels"));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.rounds = 0; }, "rounds"));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.rounds = 101; }, "rounds"));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.truncation = 0; }, "truncation"));
+  EXPECT_TRUE(refused([&](OptimizeOptions& o) { o.truncation = nan; }, "truncation"));
+  EXPECT_TRUE(refused([](OptimizeOptions& o) { o.completeness = 0; }, "completeness"));
+  EXPECT_TRUE(refused([&](OptimizeOptions& o) { o.completeness = nan; }, "completeness"));
+  EXPECT_THROW(synthesizeOptimized(DistanceField{}, sized({8, 8, 8})), InputError);
+}
+
+}  // namespace
+}  // namespace exemplar

@@ -1,0 +1,179 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/seams.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/random.h"
+#include "tests/synth/fields.h"
+
+namespace exemplar {
+namespace {
+
+using namespace testing;
+
+Array3D<float> clamped(const DistanceField& field, float limit = 1.5f) {
+  Array3D<float> values = field.values;
+  for (float& v : values.values()) v = std::clamp(v, -limit, limit);
+  return values;
+}
+
+/// Cubes of `side` samples, each of an offset of its own at random.
+Origins randomCubes(const Vec3i& size, int side, const Vec3i& example, std::uint64_t seed) {
+  const Random random(seed);
+  Origins origins(size);
+  for (std::size_t s = 0; s < origins.count(); ++s) {
+    const Vec3i p = origins.ijk(s);
+    const Vec3i cube{p.x / side, p.y / side, p.z / side};
+    const std::uint64_t key = (cube.z * 64 + cube.y) * 64 + cube.x;
+    Vec3i cell;
+    for (int axis = 0; axis < 3; ++axis) {
+      cell[axis] = static_cast<int>(random.below(example[axis] - side + 1, key, axis)) + p[axis] -
+                   cube[axis] * side;
+    }
+    origins[p] = Origin(cell);
+  }
+  return origins;
+}
+
+struct Puzzle {
+  Array3D<float> example, target;
+  Origins origins;
+};
+
+Puzzle puzzle(std::uint64_t seed, const Vec3i& size = {30, 30, 24}) {
+  const DistanceField packing = balls({28, 28, 28}, 4, seed);
+  Puzzle p{clamped(packing), {}, randomCubes(size, 7, packing.size(), seed)};
+  p.target = Array3D<float>(size);
+  for (std::size_t s = 0; s < p.target.count(); ++s) {
+    p.target.values()[s] = p.example[p.origins.values()[s].cell()];
+  }
+  return p;
+}
+
+TEST(SeamCost, IsZeroWithinOnePieceThatIsAsWanted) {
+  const Array3D<float> example = clamped(balls({16, 16, 16}, 4, 1));
+  Origins origins(example.size());
+  for (std::size_t s = 0; s < origins.count(); ++s) origins.values()[s] = Origin(origins.ijk(s));
+  EXPECT_EQ(seamCost(example, example, origins), 0);
+}
+
+TEST(SeamCost, IsTheSumOverFacesAndSamples) {
+  // Two samples, of offsets 0 and 2: |E(0) - E(2)| + |E(1) - E(3)|, the length, the square of what
+  // is wanted less what is there.
+  Array3D<float> example({4, 1, 1});
+  const float values[] = {0, 3, 1, 7};
+  std::copy(std::begin(values), std::end(values), example.data());
+  Array3D<float> target({2, 1, 1});
+  target(0, 0, 0) = 2;
+  target(1, 0, 0) = 7;
+  Origins origins({2, 1, 1});
+  origins(0, 0, 0) = Origin({0, 0, 0});
+  origins(1, 0, 0) = Origin({3, 0, 0});
+  SeamOptions options;
+  options.length = 0.25;
+  options.fidelity = 0.5;
+  EXPECT_EQ(seamCost(example, target, origins, options),
+            1000000 * 1 + 1000000 * 4 + 250000 + 2000000);
+}
+
+TEST(RefineSeams, NeverRaisesTheCost) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Puzzle p = puzzle(seed);
+    SeamOptions options;
+    options.passes = 1;
+    options.reach = 1 + static_cast<int>(seed) * 2;
+    std::int64_t cost = seamCost(p.example, p.target, p.origins, options);
+    const std::int64_t first = cost;
+    for (int pass = 0; pass < 3; ++pass) {
+      refineSeams(p.example, p.target, p.origins, options);
+      const std::int64_t next = seamCost(p.example, p.target, p.origins, options);
+      EXPECT_LE(next, cost);
+      cost = next;
+    }
+    // Cubes cut blindly through balls: there is much to win.
+    EXPECT_LT(static_cast<double>(cost), 0.8 * static_cast<double>(first));
+    for (const Origin& origin : p.origins.values()) ASSERT_TRUE(p.example.contains(origin.cell()));
+  }
+}
+
+TEST(RefineSeams, FindsTheWayThroughAir) {
+  // A row of the left part (example samples 30 on) has balls at 5 and 16, of the right part
+  // (example samples 0 on) at 19; the seam at 17 cuts both. Air that both share lies from 9 to 12.
+  // The left part cannot reach beyond 20, where the example ends.
+  const Vec3i size{24, 15, 15};
+  Array3D<float> example({50, 15, 15});
+  const Vec3d centers[] = {{19, 7, 7}, {35, 7, 7}, {46, 7, 7}};
+  for (std::size_t s = 0; s < example.count(); ++s) {
+    float distance = 1.5f;
+    for (const Vec3d& c : centers) {
+      distance =
+          std::min(distance, static_cast<float>(length(cast<double>(example.ijk(s)) - c)) - 3);
+    }
+    example.values()[s] = std::max(distance, -1.5f);
+  }
+  Origins origins(size);
+  Array3D<float> target(size);
+  for (std::size_t s = 0; s < origins.count(); ++s) {
+    const Vec3i p = origins.ijk(s);
+    origins[p] = Origin(p.x < 17 ? p + Vec3i{30, 0, 0} : p);
+    target[p] = example[origins[p].cell()];
+  }
+  SeamOptions options;
+  options.reach = 8;
+  options.length = 0;
+  options.fidelity = 0;
+  EXPECT_GT(seamCost(example, target, origins, options), 20 * 1000000);
+  refineSeams(example, target, origins, options);
+  EXPECT_EQ(seamCost(example, target, origins, options), 0);
+  EXPECT_EQ(origins(0, 7, 7), Origin({30, 7, 7}));  // the left part is still there
+  EXPECT_EQ(origins(23, 7, 7), Origin({23, 7, 7}));
+}
+
+TEST(RefineSeams, SameBytesAtAnyNumberOfThreads) {
+  const Puzzle p = puzzle(7, {40, 40, 30});
+  Origins one = p.origins, eight = p.origins;
+  withThreads(1, [&] { refineSeams(p.example, p.target, one); });
+  withThreads(8, [&] { refineSeams(p.example, p.target, eight); });
+  EXPECT_EQ(one, eight);
+  EXPECT_NE(one, p.origins);
+}
+
+TEST(RefineSeams, SmallPiecesMayBeTakenButDoNotGrow) {
+  Puzzle p = puzzle(2);
+  SeamOptions options;
+  options.smallest = 7 * 7 * 7 + 1;  // larger than any piece
+  const Origins before = p.origins;
+  refineSeams(p.example, p.target, p.origins, options);
+  EXPECT_EQ(p.origins, before);
+}
+
+TEST(RefineSeams, StopsSoundlyWhenCancelled) {
+  Puzzle p = puzzle(3);
+  CancelAfter cancel(2);
+  const std::int64_t before = seamCost(p.example, p.target, p.origins);
+  Puzzle all = p;
+  refineSeams(all.example, all.target, all.origins);
+  refineSeams(p.example, p.target, p.origins, {}, cancel.progress());
+  EXPECT_TRUE(cancel.happened());
+  EXPECT_LE(seamCost(p.example, p.target, p.origins), before);
+  EXPECT_NE(p.origins, all.origins);
+  for (const Origin& origin : p.origins.values()) ASSERT_TRUE(p.example.contains(origin.cell()));
+}
+
+TEST(RefineSeams, DoesNothingInNoPasses) {
+  Puzzle p = puzzle(4);
+  SeamOptions options;
+  options.passes = 0;
+  const Origins before = p.origins;
+  refineSeams(p.example, p.target, p.origins, options);
+  EXPECT_EQ(p.origins, before);
+}
+
+}  // namespace
+}  // namespace exemplar
