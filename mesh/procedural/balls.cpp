@@ -13,108 +13,113 @@
 namespace exemplar {
 namespace {
 
-/// Balls of radius 1 in a bin that wraps around in x and y and has a floor at z = 0.
+/// Balls of radius 1 in a bin that wraps around in x and y and has a floor at z = 0. They are
+/// dropped one after the other, and each rolls down over those before it until it rests (the
+/// sequential deposition of Visscher, Bolsterli: "Random packing of equal and unequal spheres in
+/// two and three dimensions", Nature 239, 1972, doi:10.1038/239504a0, in small steps): about 0.56
+/// of the bin is solid.
 class Heap {
  public:
-  Heap(double width, double depth, int count, const Random& random) : width_(width), depth_(depth) {
-    // Dropped from a loose cloud: a third of the density of the heap.
-    const double height = count * 4.19 / 0.2 / (width * depth);
-    for (int n = 0; n < count; ++n) {
-      centers_.push_back({random.uniform(0, width, n, 0), random.uniform(0, depth, n, 1),
-                          1 + random.uniform(0, height, n, 2)});
+  Heap(double width, double depth)
+      : width_(width),
+        depth_(depth),
+        nx_(std::max(3, static_cast<int>(width / 2))),
+        ny_(std::max(3, static_cast<int>(depth / 2))) {}
+
+  /// Drops one more ball at (x, y).
+  void drop(double x, double y) {
+    Vec3d c{x, y, top_ + 2};
+    double step = 0.25;
+    while (step > 0.01) {
+      Vec3d next = c;
+      next.z -= step;
+      if (!pushOut(next) || next.z > c.z - 0.005 * step) {
+        step *= 0.5;
+      } else {
+        c = next;
+      }
     }
+    c.x -= width_ * std::floor(c.x / width_);
+    c.y -= depth_ * std::floor(c.y / depth_);
+    top_ = std::max(top_, c.z);
+    const std::size_t layers = static_cast<std::size_t>(top_ / kCell) + 1;
+    cells_.resize(std::max(cells_.size(), layers * nx_ * ny_));
+    cells_[cellOf(column(c), static_cast<int>(c.z / kCell))].push_back(centers_.size());
+    centers_.push_back(c);
   }
 
-  /// Lets everything fall by `fall`, then pushes overlapping balls apart `rounds` times.
-  void settle(double fall, int rounds) {
-    for (Vec3d& c : centers_) c.z -= fall;
-    for (int round = 0; round < rounds; ++round) pushApart();
-  }
-
-  /// The deepest overlap of two balls, or of one with the floor.
-  double deepest() {
-    sort();
+  /// The deepest overlap of two balls.
+  double deepest() const {
     double depth = 0;
-    forNeighbors([&](std::size_t a, std::size_t b) {
-      depth = std::max(depth, 2 - length(difference(a, b)));
-    });
+    for (std::size_t n = 0; n < centers_.size(); ++n) {
+      forNear(centers_[n], [&](std::size_t m, const Vec3d& toward) {
+        if (m != n) depth = std::max(depth, 2 - length(toward));
+      });
+    }
     return depth;
   }
 
   const std::vector<Vec3d>& centers() const { return centers_; }
 
  private:
-  Vec3d difference(std::size_t a, std::size_t b) const {
-    Vec3d d = centers_[b] - centers_[a];
-    d.x -= width_ * std::round(d.x / width_);
-    d.y -= depth_ * std::round(d.y / depth_);
-    return d;
+  static constexpr double kCell = 2;  ///< height of a cell; its sides are at least as long
+
+  struct Column {
+    int i, j;
+  };
+  Column column(const Vec3d& c) const {
+    const int i = static_cast<int>(std::floor(c.x / width_ * nx_));
+    const int j = static_cast<int>(std::floor(c.y / depth_ * ny_));
+    return {((i % nx_) + nx_) % nx_, ((j % ny_) + ny_) % ny_};
+  }
+  std::size_t cellOf(const Column& column, int layer) const {
+    return (static_cast<std::size_t>(layer) * ny_ + column.j) * nx_ + column.i;
   }
 
-  void pushApart() {
-    sort();
-    for (Vec3d& c : centers_) c.z = std::max(c.z, 1.0);
-    forNeighbors([&](std::size_t a, std::size_t b) {
-      const Vec3d d = difference(a, b);
-      const double distance = length(d);
-      if (distance >= 2 || distance == 0) return;
-      const Vec3d push = d * (0.5 * (2 - distance) / distance);
-      centers_[a] -= push;
-      centers_[b] += push;
-      centers_[a].z = std::max(centers_[a].z, 1.0);
-      centers_[b].z = std::max(centers_[b].z, 1.0);
-    });
-  }
-
-  /// Puts the balls into cells of at least two radii; cells wrap around in x and y.
-  void sort() {
-    nx_ = std::max(1, static_cast<int>(width_ / 2.2));
-    ny_ = std::max(1, static_cast<int>(depth_ / 2.2));
-    double top = 0;
-    for (Vec3d& c : centers_) {
-      c.x -= width_ * std::floor(c.x / width_);
-      c.y -= depth_ * std::floor(c.y / depth_);
-      top = std::max(top, c.z);
-    }
-    nz_ = static_cast<int>(top / 2.2) + 1;
-    cells_.assign(static_cast<std::size_t>(nx_) * ny_ * nz_, {});
-    for (std::size_t n = 0; n < centers_.size(); ++n) cells_[cellOf(centers_[n])].push_back(n);
-  }
-
-  std::size_t cellOf(const Vec3d& c) const {
-    const int i = std::min(nx_ - 1, static_cast<int>(c.x / width_ * nx_));
-    const int j = std::min(ny_ - 1, static_cast<int>(c.y / depth_ * ny_));
-    const int k = std::clamp(static_cast<int>(c.z / 2.2), 0, nz_ - 1);
-    return (static_cast<std::size_t>(k) * ny_ + j) * nx_ + i;
-  }
-
-  /// Each pair of balls in the same or in neighbouring cells, once, lowest cell first.
+  /// Calls body(ball, vector to it) for every ball that could touch one at `c`.
   template <class Body>
-  void forNeighbors(const Body& body) {
-    for (int k = 0; k < nz_; ++k) {
-      for (int j = 0; j < ny_; ++j) {
-        for (int i = 0; i < nx_; ++i) {
-          const auto& own = cells_[(static_cast<std::size_t>(k) * ny_ + j) * nx_ + i];
-          for (int step = 0; step < 27; ++step) {
-            const int dk = step / 9 - 1, dj = step / 3 % 3 - 1, di = step % 3 - 1;
-            if (k + dk < 0 || k + dk >= nz_) continue;
-            const std::size_t other =
-                (static_cast<std::size_t>(k + dk) * ny_ + (j + dj + ny_) % ny_) * nx_ +
-                (i + di + nx_) % nx_;
-            for (const std::size_t a : own) {
-              for (const std::size_t b : cells_[other]) {
-                if (a < b) body(a, b);
-              }
-            }
-          }
+  void forNear(const Vec3d& c, const Body& body) const {
+    const Column middle = column(c);
+    const int layer = static_cast<int>(c.z / kCell);
+    for (int k = std::max(0, layer - 1); k <= layer + 1; ++k) {
+      for (int step = 0; step < 9; ++step) {
+        const Column at{(middle.i + step % 3 - 1 + nx_) % nx_,
+                        (middle.j + step / 3 - 1 + ny_) % ny_};
+        const std::size_t cell = cellOf(at, k);
+        if (cell >= cells_.size()) continue;
+        for (const std::size_t m : cells_[cell]) {
+          Vec3d d = centers_[m] - c;
+          d.x -= width_ * std::round(d.x / width_);
+          d.y -= depth_ * std::round(d.y / depth_);
+          body(m, d);
         }
       }
     }
   }
 
+  /// Moves a ball out of the others and above the floor, out of the deepest overlap first. False
+  /// where there is no room.
+  bool pushOut(Vec3d& c) const {
+    for (int round = 0; round < 60; ++round) {
+      c.z = std::max(c.z, 1.0);
+      double depth = 1e-3;
+      Vec3d push{};
+      forNear(c, [&](std::size_t, const Vec3d& toward) {
+        const double distance = length(toward);
+        if (2 - distance <= depth || distance == 0) return;
+        depth = 2 - distance;
+        push = toward * (-depth / distance);
+      });
+      if (push == Vec3d{}) return true;
+      c += push;
+    }
+    return false;
+  }
+
   double width_, depth_;
+  int nx_, ny_;
+  double top_ = 0;
   std::vector<Vec3d> centers_;
-  int nx_ = 1, ny_ = 1, nz_ = 1;
   std::vector<std::vector<std::size_t>> cells_;
 };
 
@@ -133,11 +138,12 @@ ProcessSample makeBalls(const BallsProcess& process, const Vec3d& extent, std::u
   // In ball radii: a bin wider than the window, whose lowest layers and loose top stay outside.
   const double margin = 4, below = 6, above = 6;
   const Vec3d bin = window / r + Vec3d{2 * margin, 2 * margin, below + above};
-  const int count = static_cast<int>(bin.x * bin.y * bin.z * 0.58 / 4.18879);
-  Heap heap(bin.x, bin.y, count, random);
-  for (int step = 0; step < 400; ++step) heap.settle(0.2, 2);
-  for (int step = 0; step < 100; ++step) heap.settle(0.02, 3);
-  heap.settle(0, 200);
+  const int count = static_cast<int>(bin.x * bin.y * bin.z * 0.56 / 4.18879);
+  Heap heap(bin.x, bin.y);
+  for (int n = 0; n < count; ++n) {
+    heap.drop(random.uniform(0, bin.x, n, 0), random.uniform(0, bin.y, n, 1));
+  }
+  // What overlap the small steps left is taken off all radii.
   const double radius = r * (1 - 0.5 * std::max(0.0, heap.deepest()) - 1e-4);
 
   ProcessSample sample;
