@@ -140,6 +140,60 @@ void keepTriangles(TriangleMesh& mesh, std::span<const std::uint8_t> keep) {
   }
 }
 
+void cutTriangle(TriangleMesh& mesh, std::uint32_t t, const std::array<std::uint32_t, 3>& middle) {
+  // Corners 0..2 and the new vertices of the sides 3..5 (3 lies between 0 and 1).
+  using Pieces = std::array<std::array<int, 3>, 4>;
+  static constexpr Pieces kOne{{{0, 3, 2}, {3, 1, 2}}};
+  static constexpr Pieces kTwo{{{3, 1, 4}, {0, 3, 4}, {0, 4, 2}}};
+  static constexpr Pieces kTwoOtherDiagonal{{{3, 1, 4}, {0, 3, 2}, {3, 4, 2}}};
+  static constexpr Pieces kThree{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+
+  int count = 0, shift = 0;
+  for (const std::uint32_t m : middle) count += m != kNone;
+  if (count == 0) return;
+  // Turn the triangle so that its cut sides are the first ones.
+  while (count < 3 && !(middle[shift] != kNone && middle[(shift + 2) % 3] == kNone)) ++shift;
+
+  std::array<std::uint32_t, 6> vertex;
+  std::array<Vec2f, 6> uv{};
+  for (int c = 0; c < 3; ++c) {
+    vertex[c] = mesh.triangles[t][(c + shift) % 3];
+    vertex[3 + c] = middle[(c + shift) % 3];
+  }
+  if (mesh.hasUvs()) {
+    for (int c = 0; c < 3; ++c) uv[c] = mesh.uvs[t][(c + shift) % 3];
+    for (int c = 0; c < 3; ++c) {
+      const Vec2f &p = uv[c], &q = uv[(c + 1) % 3];
+      uv[3 + c] = {(p.x + q.x) / 2, (p.y + q.y) / 2};
+    }
+  }
+  const Pieces* pieces = count == 1 ? &kOne : count == 2 ? &kTwo : &kThree;
+  if (count == 2) {
+    const auto far = [&](int a, int b) {
+      return length(mesh.positions[vertex[a]] - mesh.positions[vertex[b]]);
+    };
+    if (far(3, 2) < far(0, 4)) pieces = &kTwoOtherDiagonal;
+  }
+  for (int p = 0; p <= count; ++p) {
+    std::array<std::uint32_t, 3> corners;
+    std::array<Vec2f, 3> uvs;
+    for (int c = 0; c < 3; ++c) {
+      corners[c] = vertex[(*pieces)[p][c]];
+      uvs[c] = uv[(*pieces)[p][c]];
+    }
+    if (p == 0) {
+      mesh.triangles[t] = corners;
+      if (mesh.hasUvs()) mesh.uvs[t] = uvs;
+    } else {
+      mesh.triangles.push_back(corners);
+      if (mesh.hasUvs()) mesh.uvs.push_back(uvs);
+      if (mesh.hasMaterials()) {
+        mesh.triangleMaterials.push_back(std::uint32_t{mesh.triangleMaterials[t]});
+      }
+    }
+  }
+}
+
 std::vector<Vec3d> vertexNormals(const TriangleMesh& mesh, const VertexCorners& corners) {
   std::vector<Vec3d> normals(mesh.positions.size());
   parallelFor(0, normals.size(), kGrain, [&](std::size_t v0, std::size_t v1) {

@@ -69,6 +69,11 @@ std::vector<std::uint32_t> vertexComponents(const Triangles& triangles, std::siz
 /// order of what remains is kept.
 void keepTriangles(TriangleMesh& mesh, std::span<const std::uint8_t> keep);
 
+/// Cuts triangle `t` at those of its sides that have a new vertex, `middle[c]` on the side from
+/// corner c to the next (`kNone`: none): the first piece takes its place, the others, one a new
+/// vertex, are added at the end, with its material; texture coordinates as for vertices half way.
+void cutTriangle(TriangleMesh& mesh, std::uint32_t t, const std::array<std::uint32_t, 3>& middle);
+
 /// The sum of the triangles' area normals at each vertex, not normalised.
 std::vector<Vec3d> vertexNormals(const TriangleMesh& mesh, const VertexCorners& corners);
 

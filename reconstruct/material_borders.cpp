@@ -3,8 +3,8 @@
 
 #include "reconstruct/material_borders.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
@@ -13,19 +13,118 @@ namespace exemplar {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-constexpr int kRounds = 8;
-/// Cosine of the angle to the vertex's normal beyond which a triangle makes a crease.
-constexpr double kCrease = 0.82;
-/// A triangle keeps at least this share of its area and this cosine to its old normal.
-constexpr double kLeastArea = 0.2, kLeastTurn = 0.7;
+/// How far inside a triangle, from its corner to its middle, the corner's material is asked for: a
+/// vertex on a crease belongs to both sides of it.
+constexpr double kInside = 0.05;
+/// Halvings of a side in search of the border.
+constexpr int kHalvings = 6;
+/// Borders nearer to a side's end than this share of it go through the end.
+constexpr double kAtEnd = 0.1;
+constexpr float kUncut = -1;
 
-/// A vertex inside a border line: its two neighbours along it.
-struct BorderVertex {
-  std::uint32_t vertex, before, after;
-  Vec3d start, normal;
-};
+/// Triangles with a vertex at which materials meet.
+std::vector<std::uint32_t> borderTriangles(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> seen(mesh.positions.size(), kNone);
+  std::vector<std::uint8_t> mixed(mesh.positions.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (seen[v] == kNone) seen[v] = mesh.triangleMaterials[t];
+      mixed[v] |= seen[v] != mesh.triangleMaterials[t];
+    }
+  }
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (mixed[a] || mixed[b] || mixed[c]) triangles.push_back(t);
+  }
+  return triangles;
+}
+
+Vec3d middleOf(const TriangleMesh& mesh, std::uint32_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
+}
 
 }  // namespace
+
+std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const MaterialAt& materialAt) {
+  const std::size_t before = mesh.triangles.size();
+  std::vector<std::uint32_t> parent(before);
+  std::iota(parent.begin(), parent.end(), 0u);
+  const std::vector<std::uint32_t> zone = borderTriangles(mesh);
+  std::vector<std::uint8_t> inZone(before, 0);
+  std::vector<float> cuts(3 * before, kUncut);  // where each halfedge is cut, 0..1
+  parallelFor(0, zone.size(), 64, [&](std::size_t n0, std::size_t n1) {
+    for (std::size_t n = n0; n < n1; ++n) {
+      const std::uint32_t t = zone[n];
+      inZone[t] = 1;
+      const Vec3d normal = normalized(areaNormal(mesh, t)), middle = middleOf(mesh, t);
+      std::array<Vec3d, 3> p;
+      std::array<std::uint32_t, 3> material;
+      for (int c = 0; c < 3; ++c) {
+        const Vec3d& corner = mesh.positions[mesh.triangles[t][c]];
+        p[c] = corner + (middle - corner) * kInside;
+        material[c] = materialAt(p[c], normal);
+      }
+      if (material[0] == material[1] && material[1] == material[2]) {
+        mesh.triangleMaterials[t] = material[0];
+        continue;
+      }
+      mesh.triangleMaterials[t] = materialAt(middle, normal);
+      for (int c = 0; c < 3; ++c) {
+        const int d = (c + 1) % 3;
+        if (material[c] == material[d]) continue;
+        double low = 0, high = 1;
+        for (int halving = 0; halving < kHalvings; ++halving) {
+          const double s = (low + high) / 2;
+          (materialAt(p[c] + (p[d] - p[c]) * s, normal) == material[c] ? low : high) = s;
+        }
+        cuts[3 * t + c] = static_cast<float>((low + high) / 2);
+      }
+    }
+  });
+
+  // One place for each edge: the mean of what its two triangles found, or what one of them did.
+  const EdgeGroups edges = edgeGroups(mesh.triangles, mesh.positions.size());
+  std::vector<std::uint32_t> middles(3 * before, kNone);
+  for (std::size_t e = 0; e < edges.count(); ++e) {
+    const auto group = edges.group(e);
+    const std::uint32_t from = fromVertex(mesh.triangles, group[0]);
+    const std::uint32_t to = toVertex(mesh.triangles, group[0]);
+    double sum = 0;
+    int count = 0;
+    for (const std::uint32_t h : group) {
+      if (cuts[h] == kUncut) continue;
+      sum += fromVertex(mesh.triangles, h) == from ? cuts[h] : 1 - cuts[h];
+      ++count;
+    }
+    if (count == 0) continue;
+    const double share = sum / count;
+    if (share < kAtEnd || share > 1 - kAtEnd) continue;
+    const auto v = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back(mesh.positions[from] +
+                             (mesh.positions[to] - mesh.positions[from]) * share);
+    for (const std::uint32_t h : group) middles[h] = v;
+  }
+  std::vector<std::uint32_t> pieces;
+  for (std::uint32_t t = 0; t < before; ++t) {
+    const std::size_t first = mesh.triangles.size();
+    cutTriangle(mesh, t, {middles[3 * t], middles[3 * t + 1], middles[3 * t + 2]});
+    parent.resize(mesh.triangles.size(), t);
+    if (mesh.triangles.size() == first || !inZone[t]) continue;
+    pieces.push_back(t);
+    for (std::size_t p = first; p < mesh.triangles.size(); ++p) {
+      pieces.push_back(static_cast<std::uint32_t>(p));
+    }
+  }
+  parallelFor(0, pieces.size(), 64, [&](std::size_t n0, std::size_t n1) {
+    for (std::size_t n = n0; n < n1; ++n) {
+      const std::uint32_t t = pieces[n];
+      mesh.triangleMaterials[t] = materialAt(middleOf(mesh, t), normalized(areaNormal(mesh, t)));
+    }
+  });
+  return parent;
+}
 
 void cleanMaterialBorders(TriangleMesh& mesh, int rounds) {
   if (!mesh.hasMaterials() || rounds <= 0) return;
@@ -43,80 +142,6 @@ void cleanMaterialBorders(TriangleMesh& mesh, int rounds) {
       }
     });
     if (mesh.triangleMaterials == before) break;
-  }
-}
-
-void straightenMaterialBorders(TriangleMesh& mesh, double most) {
-  if (!mesh.hasMaterials()) return;
-  const Triangles& triangles = mesh.triangles;
-  const std::size_t vertices = mesh.positions.size();
-  const std::vector<std::uint32_t> mates = mateHalfedges(triangles, vertices);
-
-  // Up to two neighbours along borders; more, or an open rim, and the vertex stays.
-  std::vector<std::array<std::uint32_t, 2>> along(vertices, {kNone, kNone});
-  std::vector<std::uint8_t> stays(vertices, 0);
-  for (std::uint32_t h = 0; h < mates.size(); ++h) {
-    const std::uint32_t a = fromVertex(triangles, h), b = toVertex(triangles, h);
-    if (mates[h] == kNone) {
-      stays[a] = stays[b] = 1;
-    } else if (mesh.triangleMaterials[h / 3] != mesh.triangleMaterials[mates[h] / 3]) {
-      // Both halfedges of the edge come by; each serves the vertex that it starts from.
-      if (along[a][0] == kNone) {
-        along[a][0] = b;
-      } else if (along[a][1] == kNone) {
-        along[a][1] = b;
-      } else {
-        stays[a] = 1;
-      }
-    }
-  }
-  const VertexCorners corners = vertexCorners(triangles, vertices);
-  std::vector<BorderVertex> border;
-  for (std::uint32_t v = 0; v < vertices; ++v) {
-    if (stays[v] || along[v][1] == kNone) continue;
-    Vec3d normal{};
-    for (const std::uint32_t c : corners.at(v)) normal += areaNormal(mesh, c / 3);
-    normal = normalized(normal);
-    bool crease = false;
-    for (const std::uint32_t c : corners.at(v)) {
-      crease = crease || dot(normalized(areaNormal(mesh, c / 3)), normal) < kCrease;
-    }
-    if (!crease) border.push_back({v, along[v][0], along[v][1], mesh.positions[v], normal});
-  }
-
-  const std::vector<Vec3d> original = mesh.positions;
-  const auto originalNormal = [&](std::size_t t) {
-    const auto& [a, b, c] = triangles[t];
-    return cross(original[b] - original[a], original[c] - original[a]);
-  };
-  for (int round = 0; round < kRounds; ++round) {
-    std::vector<Vec3d> moved(border.size());
-    parallelFor(0, border.size(), kGrain, [&](std::size_t n0, std::size_t n1) {
-      for (std::size_t n = n0; n < n1; ++n) {
-        const BorderVertex& b = border[n];
-        const Vec3d& p = mesh.positions[b.vertex];
-        Vec3d move = (mesh.positions[b.before] + mesh.positions[b.after]) * 0.5 - p;
-        Vec3d off = p + move * 0.5 - b.start;
-        off -= b.normal * dot(off, b.normal);
-        const double far = length(off);
-        if (far > most) off *= most / far;
-        moved[n] = b.start + off;
-      }
-    });
-    // One after the other, each only where no triangle around it suffers.
-    for (std::size_t n = 0; n < border.size(); ++n) {
-      const std::uint32_t v = border[n].vertex;
-      const Vec3d previous = mesh.positions[v];
-      mesh.positions[v] = moved[n];
-      for (const std::uint32_t c : corners.at(v)) {
-        const Vec3d was = originalNormal(c / 3), is = areaNormal(mesh, c / 3);
-        const double isLength = length(is), wasLength = length(was);
-        if (isLength < kLeastArea * wasLength || dot(is, was) < kLeastTurn * isLength * wasLength) {
-          mesh.positions[v] = previous;
-          break;
-        }
-      }
-    }
   }
 }
 

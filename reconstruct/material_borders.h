@@ -3,18 +3,31 @@
 
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/vec.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
+
+/// The material at a point of a surface that has this unit normal there. Called from many threads.
+using MaterialAt = std::function<std::uint32_t(const Vec3d& point, const Vec3d& normal)>;
+
+/// Cuts triangles where the material changes inside them, so that borders between materials run
+/// where they are and not along the nearest triangle sides. `mesh` comes with a material for each
+/// triangle; near borders they are asked for anew.
+///
+/// New vertices lie on the sides of triangles, and neighbours are cut alike: the surface stays as
+/// it is, closed where it was. Borders that pass a vertex at less than a tenth of a side go through
+/// it. The mesh has no vertex colours and texture coordinates yet. Returns, for each triangle,
+/// which one it was (part of). The same at any number of threads.
+std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const MaterialAt& materialAt);
 
 /// Gives triangles with two neighbours of one other material that material, `rounds` times: single
 /// triangles and teeth along the border between two materials go. Stripes that are two triangles
 /// wide stay. O(rounds n); the same at any number of threads.
 void cleanMaterialBorders(TriangleMesh& mesh, int rounds);
-
-/// Draws the vertices along borders between two materials into line, by at most `most` world units
-/// and along the surface only. Vertices where more than two materials meet, where the surface has
-/// a crease and on open rims stay, and no triangle turns over.
-void straightenMaterialBorders(TriangleMesh& mesh, double most);
 
 }  // namespace exemplar

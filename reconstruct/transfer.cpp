@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -78,47 +79,102 @@ struct TriangleSources {
   std::vector<float> cost;              // voxels
 };
 
+/// The heaviest match; by material, the heaviest of those of the material with most weight.
+const Match& chooseMatch(const Matches& matches, const Attributes& attributes, bool byMaterial) {
+  const Match* chosen = matches.begin();
+  if (!byMaterial || matches.count < 2) return *chosen;
+  const auto materialOf = [&](const Match& match) {
+    return attributes.mesh->triangleMaterials[attributes.triangle(match)];
+  };
+  double most = -1;
+  for (const Match& match : matches) {
+    double weight = 0;
+    for (const Match& other : matches) {
+      if (materialOf(other) == materialOf(match)) weight += other.weight;
+    }
+    if (weight > most) {
+      most = weight;
+      chosen = &match;
+    }
+  }
+  return *chosen;
+}
+
+Vec3d middleOf(const TriangleMesh& mesh, std::size_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
+}
+
 TriangleSources matchTriangles(const TriangleMesh& result, const OriginPullView& pull,
-                               const Attributes& attributes,
-                               std::vector<std::uint32_t>* materials) {
+                               const Attributes& attributes, bool byMaterial) {
   const std::size_t count = result.triangles.size();
   TriangleSources sources;
   sources.motion.resize(count);
   sources.triangle.resize(count);
   sources.cost.resize(count);
-  if (materials) materials->resize(count);
   parallelFor(0, count, kGrain, [&](std::size_t t0, std::size_t t1) {
     Matches matches;
     for (std::size_t t = t0; t < t1; ++t) {
-      const auto& [a, b, c] = result.triangles[t];
-      const Vec3d middle = (result.positions[a] + result.positions[b] + result.positions[c]) / 3.0;
-      pull.match(middle, normalized(areaNormal(result, t)), matches);
-      const Match* chosen = matches.begin();
-      if (materials) {
-        // The material with most weight, and of its matches the heaviest.
-        double most = -1;
-        for (const Match& match : matches) {
-          const std::uint32_t material =
-              attributes.mesh->triangleMaterials[attributes.triangle(match)];
-          double weight = 0;
-          for (const Match& other : matches) {
-            if (attributes.mesh->triangleMaterials[attributes.triangle(other)] == material) {
-              weight += other.weight;
-            }
-          }
-          if (weight > most) {
-            most = weight;
-            chosen = &match;
-          }
-        }
-        (*materials)[t] = attributes.mesh->triangleMaterials[attributes.triangle(*chosen)];
-      }
-      sources.motion[t] = chosen->motion;
-      sources.triangle[t] = attributes.triangle(*chosen);
-      sources.cost[t] = static_cast<float>(chosen->cost);
+      pull.match(middleOf(result, t), normalized(areaNormal(result, t)), matches);
+      const Match& chosen = chooseMatch(matches, attributes, byMaterial);
+      sources.motion[t] = chosen.motion;
+      sources.triangle[t] = attributes.triangle(chosen);
+      sources.cost[t] = static_cast<float>(chosen.cost);
     }
   });
   return sources;
+}
+
+/// Materials for every triangle, with borders where the example has them. `sources` follow: a piece
+/// of a cut triangle comes from where its triangle did, but from a triangle of its material.
+void transferMaterials(TriangleMesh& result, const OriginPullView& pull,
+                       const Attributes& attributes, std::span<const ExampleView> examples,
+                       const TransferOptions& options, bool needSources, TriangleSources& sources) {
+  const TriangleMesh& example = *attributes.mesh;
+  result.triangleMaterials.resize(result.triangles.size());
+  for (std::size_t t = 0; t < result.triangles.size(); ++t) {
+    result.triangleMaterials[t] = example.triangleMaterials[sources.triangle[t]];
+  }
+  std::vector<std::uint32_t> parent;
+  if (options.cutBorders) {
+    parent = cutMaterialBorders(result, [&](const Vec3d& point, const Vec3d& normal) {
+      Matches matches;
+      pull.match(point, normal, matches);
+      return example.triangleMaterials[attributes.triangle(chooseMatch(matches, attributes, true))];
+    });
+  } else {
+    parent.resize(result.triangles.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+  }
+  cleanMaterialBorders(result, options.materialRounds);
+  if (!needSources) return;
+
+  const TriangleSources whole = sources;
+  sources.motion.resize(parent.size());
+  sources.triangle.resize(parent.size());
+  sources.cost.resize(parent.size());
+  parallelFor(0, parent.size(), kGrain, [&](std::size_t t0, std::size_t t1) {
+    for (std::size_t t = t0; t < t1; ++t) {
+      const std::uint32_t from = parent[t];
+      const OriginMotion& motion = whole.motion[from];
+      sources.motion[t] = motion;
+      sources.triangle[t] = whole.triangle[from];
+      sources.cost[t] = whole.cost[from];
+      if (result.triangleMaterials[t] == example.triangleMaterials[whole.triangle[from]]) continue;
+      const std::span<const std::uint32_t> materials(
+          example.triangleMaterials.data() + attributes.first[motion.example],
+          examples[motion.example].mesh.triangles.size());
+      const auto match =
+          pull.matchUnder(motion, middleOf(result, t), normalized(areaNormal(result, t)), materials,
+                          result.triangleMaterials[t]);
+      if (match) {
+        sources.triangle[t] = attributes.triangle(*match);
+        sources.cost[t] = static_cast<float>(match->cost);
+      } else {
+        result.triangleMaterials[t] = example.triangleMaterials[whole.triangle[from]];
+      }
+    }
+  });
 }
 
 void transferColors(TriangleMesh& result, const std::vector<Vec3d>& normals,
@@ -161,10 +217,7 @@ void joinNeighbours(const TriangleMesh& result, const std::vector<Vec3d>& triang
           if (g == kNone || h == kNone) continue;
           const OriginMotion& there = sources.motion[g / 3];
           if (!(there == sources.motion[h / 3]) || there == sources.motion[t]) continue;
-          const auto& [p, q, r] = result.triangles[t];
-          const Vec3d middle =
-              (result.positions[p] + result.positions[q] + result.positions[r]) / 3.0;
-          const auto match = pull.matchUnder(there, middle, triangleNormals[t]);
+          const auto match = pull.matchUnder(there, middleOf(result, t), triangleNormals[t]);
           if (!match || match->cost > sources.cost[t] + kAllowance) continue;
           const std::uint32_t triangle = attributes.triangle(*match);
           if (attributes.mesh->hasMaterials() &&
@@ -253,41 +306,16 @@ void transferAppearance(TriangleMesh& result, const DistanceField& field, const 
   if (!plan.colors && !plan.coordinates && !plan.materials) return;
 
   const OriginPullView pull(field, origins, examples, options.blend);
-  const bool byTriangle = plan.coordinates || (plan.materials && !plan.oneMaterial);
   TriangleSources sources;
-  if (byTriangle) {
+  const bool manyMaterials = plan.materials && !plan.oneMaterial;
+  if (plan.coordinates || manyMaterials) {
     progress.report("taking materials from the example", 0);
-    sources = matchTriangles(result, pull, attributes,
-                             plan.materials ? &result.triangleMaterials : nullptr);
+    sources = matchTriangles(result, pull, attributes, manyMaterials);
+  }
+  if (manyMaterials) {
+    transferMaterials(result, pull, attributes, examples, options, plan.coordinates, sources);
   } else if (plan.materials) {
     result.triangleMaterials.assign(result.triangles.size(), example.triangleMaterials.front());
-  }
-  if (plan.materials && !plan.oneMaterial) {
-    const std::vector<std::uint32_t> before = result.triangleMaterials;
-    cleanMaterialBorders(result, options.materialRounds);
-    if (options.straightenBorders) straightenMaterialBorders(result, 0.3 * field.voxelSize);
-    if (plan.coordinates) {
-      // A triangle that took its neighbours' material takes its texture from there too.
-      parallelFor(0, result.triangles.size(), kGrain, [&](std::size_t t0, std::size_t t1) {
-        for (std::size_t t = t0; t < t1; ++t) {
-          if (result.triangleMaterials[t] == before[t]) continue;
-          const OriginMotion& motion = sources.motion[t];
-          const auto& [a, b, c] = result.triangles[t];
-          const Vec3d middle =
-              (result.positions[a] + result.positions[b] + result.positions[c]) / 3.0;
-          const std::span<const std::uint32_t> groups(
-              example.triangleMaterials.data() + attributes.first[motion.example],
-              examples[motion.example].mesh.triangles.size());
-          const auto match = pull.matchUnder(motion, middle, normalized(areaNormal(result, t)),
-                                             groups, result.triangleMaterials[t]);
-          if (match) {
-            sources.triangle[t] = attributes.triangle(*match);
-          } else {
-            result.triangleMaterials[t] = before[t];
-          }
-        }
-      });
-    }
   }
 
   std::vector<Vec3d> normals =

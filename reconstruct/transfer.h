@@ -33,11 +33,12 @@ struct TransferOptions {
   TextureTransfer textures = TextureTransfer::Automatic;
   /// Colours of the parts that meet at a seam are mixed over this many voxels, 0.5..4.
   double blend = 1.5;
-  /// Rounds in which a triangle takes the material of most of its neighbours, 0..100: borders
-  /// between materials lose their teeth.
-  int materialRounds = 3;
-  /// Draw the vertices of borders between materials into line, along the surface.
-  bool straightenBorders = true;
+  /// Cut triangles where the material changes inside them, so that borders are as sharp and
+  /// straight as the example's; else they run along triangle sides. The surface stays as it is.
+  bool cutBorders = true;
+  /// Rounds in which a triangle takes the material of most of its neighbours, 0..100: lone
+  /// triangles at seams go.
+  int materialRounds = 2;
 };
 
 /// Gives `result`, the surface of `field`, the materials, vertex colours and textures of the
@@ -53,8 +54,8 @@ struct TransferOptions {
 /// materials are then cleaned. Texture coordinates come from the one best motion and stay inside
 /// one chart for each triangle, so nothing is smeared across the atlas.
 ///
-/// What `result` carried before is replaced; only positions near borders of materials move, by a
-/// fraction of a voxel. O(m log n) for m result and n example triangles. The same bytes at any
+/// What `result` carried before is replaced; positions stay, and `cutBorders` adds vertices on
+/// triangle sides. O(m log n) for m result and n example triangles. The same bytes at any
 /// number of threads. Throws `InputError` for options out of range, and where origins and field do
 /// not match or name an example that is not there.
 void transferAppearance(TriangleMesh& result, const DistanceField& field, const Origins& origins,

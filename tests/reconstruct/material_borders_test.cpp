@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "core/random.h"
 #include "mesh/primitives.h"
 #include "reconstruct/adjacency.h"
@@ -62,34 +64,68 @@ TEST(CleanMaterialBorders, NoRoundsChangeNothing) {
   EXPECT_EQ(mesh.triangleMaterials, before);
 }
 
-TEST(StraightenMaterialBorders, ShortensBordersAndLeavesTheSurfaceWhereItIs) {
-  TriangleMesh mesh = paintedSphere(24, [](const Vec3d& p) { return p.x + 0.4 * p.y; });
+// A great circle through a fine triangulation: cut, the border is as long as the circle; along
+// triangle sides it is a zigzag.
+TEST(CutMaterialBorders, PutsBordersWhereTheyAre) {
+  const auto plane = [](const Vec3d& p) { return p.x + 0.4 * p.y + 0.05; };
+  TriangleMesh mesh = paintedSphere(24, plane);
   const TriangleMesh before = mesh;
-  const double edge = 1.26 / 24;
-  straightenMaterialBorders(mesh, 0.5 * edge);
-  // A great circle, cut along triangle edges, is a zigzag of up to 1.15 times its length.
-  EXPECT_LT(borderLength(mesh), 0.97 * borderLength(before));
+  const double zigzag = borderLength(mesh);
+  const auto parent = cutMaterialBorders(
+      mesh, [&](const Vec3d& p, const Vec3d&) { return std::uint32_t{plane(p) > 0}; });
+  const double offset = 0.05 / std::hypot(1, 0.4);
+  const double circle = 2 * std::numbers::pi * std::sqrt(1 - offset * offset);
+  EXPECT_GT(zigzag, 1.08 * circle);
+  EXPECT_NEAR(borderLength(mesh), circle, 0.02 * circle);
   expectSound(mesh);
-  int moved = 0;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const double far = length(mesh.positions[v] - before.positions[v]);
-    EXPECT_LE(far, 0.5 * edge * (1 + 1e-9));
-    // Along the surface: off the sphere by far² / 2, and as much again for the normal's error.
-    EXPECT_NEAR(length(mesh.positions[v]), 1, 1.2 * far * far + 1e-12);
-    moved += far > 0;
+  validate(mesh, "cut");
+  // Every piece lies in its triangle, and the pieces are the whole.
+  ASSERT_EQ(parent.size(), mesh.triangles.size());
+  std::vector<double> area(before.triangles.size(), 0);
+  for (std::size_t t = 0; t < parent.size(); ++t) {
+    const Vec3d n = areaNormal(mesh, t), whole = areaNormal(before, parent[t]);
+    EXPECT_GT(dot(n, whole), (1 - 1e-9) * length(n) * length(whole));
+    area[parent[t]] += length(n);
   }
-  EXPECT_GT(moved, 30);
+  for (std::size_t t = 0; t < area.size(); ++t) {
+    EXPECT_NEAR(area[t], length(areaNormal(before, t)), 1e-12);
+  }
+  // A tenth of a side, 0.0053, is as far as a border may be moved.
+  for (std::size_t t = 0; t < parent.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3d middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
+    if (std::abs(plane(middle)) > 0.006) {
+      EXPECT_EQ(mesh.triangleMaterials[t], plane(middle) > 0);
+    }
+  }
 }
 
-TEST(StraightenMaterialBorders, LeavesCreasesAlone) {
+TEST(CutMaterialBorders, LeavesBordersAlongCreasesAlone) {
   TriangleMesh mesh = makeBox({{0, 0, 0}, {1, 1, 1}});
   mesh.materials.resize(2);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     mesh.triangleMaterials.push_back(areaNormal(mesh, t).z > 0.5);
   }
-  const auto before = mesh.positions;
-  straightenMaterialBorders(mesh, 0.5);
-  EXPECT_EQ(mesh.positions, before);
+  const TriangleMesh before = mesh;
+  cutMaterialBorders(mesh, [](const Vec3d&, const Vec3d& n) { return std::uint32_t{n.z > 0.5}; });
+  EXPECT_EQ(mesh.positions, before.positions);
+  EXPECT_EQ(mesh.triangleMaterials, before.triangleMaterials);
+}
+
+TEST(CutMaterialBorders, AnyMaterialsLeaveTheSurfaceSound) {
+  const Random random(3);
+  TriangleMesh mesh = makeTorus({}, {0, 0, 1}, 2, 0.8, 40, 20);
+  const double volume = meshHealth(mesh).signedVolume;
+  const auto noise = [&](const Vec3d& p, const Vec3d&) {
+    return random.below(4, static_cast<std::uint64_t>((p.x + 10) * 1e5) * 1000003 +
+                               static_cast<std::uint64_t>((p.y + 10) * 1e5));
+  };
+  mesh.materials.resize(4);
+  for (const auto& t : mesh.triangles)
+    mesh.triangleMaterials.push_back(noise(mesh.positions[t[0]], {}));
+  cutMaterialBorders(mesh, noise);
+  expectSound(mesh);
+  EXPECT_NEAR(meshHealth(mesh).signedVolume, volume, 1e-9);
 }
 
 }  // namespace

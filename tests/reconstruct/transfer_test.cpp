@@ -145,17 +145,27 @@ TriangleMesh checkerBall(int frequency) {
 
 TEST(TransferAppearance, MaterialsLieWhereTheyLieOnTheExample) {
   Sample s(checkerBall(60), 48);
-  transferAppearance(s.result, s.field, identityOrigins(s.field.size()), s.example, s.field);
-  validate(s.result, "result");
-  EXPECT_EQ(s.result.materials, s.example.materials);
-  expectSound(s.result);
-  for (std::size_t t = 0; t < s.result.triangles.size(); ++t) {
-    const Vec3d p = middle(s.result, t);
-    // Borders run along the example's triangles, 0.02 long, and along the result's, a voxel of
-    // 0.042.
-    if (std::min({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 0.06) continue;
-    ASSERT_EQ(s.result.triangleMaterials[t], p.x * p.y * p.z > 0)
-        << p.x << " " << p.y << " " << p.z;
+  const std::vector<Vec3d> before = s.result.positions;
+  for (const bool cut : {false, true}) {
+    TriangleMesh result = s.result;
+    transferAppearance(result, s.field, identityOrigins(s.field.size()), s.example, s.field,
+                       {.cutBorders = cut});
+    validate(result, "result");
+    EXPECT_EQ(result.materials, s.example.materials);
+    expectSound(result);
+    // Borders run along the example's triangles, of sides up to 0.021, whose middles were painted;
+    // uncut, also along the result's, with middles up to 0.03 from their corners. A border moves by
+    // up to a tenth of a side.
+    const double clear = cut ? 0.024 : 0.05;
+    for (std::size_t t = 0; t < result.triangles.size(); ++t) {
+      const Vec3d p = middle(result, t);
+      if (std::min({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < clear) continue;
+      ASSERT_EQ(result.triangleMaterials[t], p.x * p.y * p.z > 0)
+          << p.x << " " << p.y << " " << p.z;
+    }
+    // The surface is where it was.
+    for (std::size_t v = 0; v < before.size(); ++v) ASSERT_EQ(result.positions[v], before[v]);
+    EXPECT_NEAR(meshHealth(result).signedVolume, meshHealth(s.result).signedVolume, 1e-9);
   }
 }
 
