@@ -172,7 +172,7 @@ void paint(TriangleMesh& mesh, double relief) {
     const double flat = normalized(normals[v]).z;
     auto color = mix(meadow, earth, (height - 0.15) / 0.3);
     color = mix(color, rock, (0.86 - flat) / 0.15);
-    mesh.colors[v] = mix(color, snow, (height - 0.68) / 0.12 * (flat - 0.45));
+    mesh.colors[v] = mix(color, snow, (height - 0.8) / 0.1 * (flat - 0.45));
   }
 }
 
@@ -186,11 +186,11 @@ ProcessSample makeTerrain(const TerrainProcess& process, const Vec3d& extent, st
   const int rows = static_cast<int>((window.y + 2 * margin) / cell) + 1;
   Landscape land(columns, rows, process.valley / cell, random);
   for (int step = 0; step < process.steps; ++step) {
-    land.erode(0.5, 0.12);
-    land.slide(0.8, 2);
+    land.erode(0.5, 0.17);
+    land.slide(0.9, 1);
   }
-  land.smooth(2);
-  land.slide(0.8, 4);
+  land.smooth(1);
+  land.slide(0.85, 4);
   // The process has no scale of height of its own: its 99.5th percentile becomes the relief.
   std::vector<double> sorted = land.heights();
   const auto high = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 995 / 1000);
