@@ -9,104 +9,82 @@
 #include <numeric>
 
 #include "core/simd.h"
+#include "search/kernels.h"
 
 namespace exemplar {
 
 namespace {
 
+static_assert(BlockSum<std::uint8_t>::kLanes == kernels::kSumLanes);
+
+using FloatChunks = BlockSum<float>::Chunks;
+constexpr int kFloatLanes = BlockSum<float>::kLanes;
+
 // GCC and Clang compile these types to the widest registers that a version of a function may use;
 // sums over lanes stay in order whatever those are.
-template <class T, int lanes>
-using Vector __attribute__((vector_size(sizeof(T) * lanes))) = T;
+using Floats __attribute__((vector_size(sizeof(float) * kFloatLanes))) = float;
+using Doubles __attribute__((vector_size(sizeof(double) * kFloatLanes))) = double;
 
-// Chunks between two looks at the limit: a look costs about as much as one chunk.
-constexpr std::size_t kChunksPerLook = 4;
-
-template <int piece, class Sample, int lanes>
-inline __attribute__((always_inline)) void load(const Sample* block, const std::uint32_t* source,
-                                                Sample (&to)[lanes]) {
-  for (int p = 0; p < lanes / piece; ++p)
-    std::memcpy(to + p * piece, block + source[p], piece * sizeof(Sample));
-}
-
-template <int piece, class Sample>
-inline __attribute__((always_inline)) std::size_t scanChunks(
-    const typename BlockSum<Sample>::Data& data, const Sample* block, std::size_t count,
-    SquaredSum<Sample> limit, SquaredSum<Sample>& found) {
-  using Sums = BlockSum<Sample>;
-  constexpr int lanes = Sums::kLanes;
-  using Values = Vector<typename Sums::Value, lanes>;
-  using Lane = std::conditional_t<Sums::kLevels, std::uint32_t, double>;
-
-  const auto* chunks = data.chunks.data();
-  const std::size_t chunkCount = data.chunks.size();
+template <int piece>
+inline __attribute__((always_inline)) std::size_t scanPieces(const FloatChunks& chunks,
+                                                             const float* block, std::size_t count,
+                                                             double limit, double& found) {
+  // Chunks between two looks at the limit: a look costs about as much as a chunk.
+  constexpr std::size_t kLook = 4;
+  constexpr int pieces = kFloatLanes / piece;
   for (std::size_t b = 0; b < count; ++b) {
-    Vector<Lane, lanes> running{};
-    SquaredSum<Sample> sum = 0;
-    for (std::size_t c = 0; c < chunkCount && sum <= limit;) {
-      const std::size_t end = std::min(chunkCount, c + kChunksPerLook);
+    Doubles sum{};
+    double total = 0;
+    for (std::size_t c = 0; c < chunks.count && total <= limit;) {
+      const std::size_t end = std::min(chunks.count, c + kLook);
       for (; c < end; ++c) {
-        alignas(32) Sample samples[lanes];
-        load<piece>(block + b, chunks[c].source, samples);
-        Vector<Sample, lanes> loaded;
-        Values values, mask;
-        std::memcpy(&loaded, samples, sizeof loaded);
-        std::memcpy(&values, chunks[c].value, sizeof values);
-        std::memcpy(&mask, chunks[c].mask, sizeof mask);
-        if constexpr (Sums::kLevels) {
-          const Values difference = (__builtin_convertvector(loaded, Values) - values) & mask;
-          // At most 255², so sixteen bits without sign hold it.
-          const Values square = difference * difference;
-          using Squares = Vector<std::uint16_t, lanes>;
-          running += __builtin_convertvector((Squares)square, Vector<Lane, lanes>);
-        } else {
-          const auto difference =
-              __builtin_convertvector(loaded * mask - values, Vector<Lane, lanes>);
-          running += difference * difference;
-        }
+        alignas(32) float samples[kFloatLanes];
+        for (int p = 0; p < pieces; ++p)
+          std::memcpy(samples + p * piece, block + b + chunks.source[c * pieces + p],
+                      piece * sizeof(float));
+        Floats a, value, mask;
+        std::memcpy(&a, samples, sizeof a);
+        std::memcpy(&value, chunks.value.data() + c * kFloatLanes, sizeof value);
+        std::memcpy(&mask, chunks.mask.data() + c * kFloatLanes, sizeof mask);
+        const Doubles difference = __builtin_convertvector(a * mask - value, Doubles);
+        sum += difference * difference;
       }
-      if constexpr (Sums::kLevels) {
-        for (int l = 0; l < lanes; ++l) sum += running[l];
-        running = Vector<Lane, lanes>{};
-      } else {
-        // The sum of all lanes from first to last grows with each of them, in floating point too.
-        sum = 0;
-        for (int l = 0; l < lanes; ++l) sum += running[l];
-      }
+      // The sum of all lanes from first to last grows with each of them, in floating point too.
+      total = 0;
+      for (int l = 0; l < kFloatLanes; ++l) total += sum[l];
     }
-    if (sum <= limit) {
-      found = sum;
+    if (total <= limit) {
+      found = total;
       return b;
     }
   }
   return count;
 }
 
-EXEMPLAR_MULTIVERSION std::size_t scan(const BlockSum<std::uint8_t>::Data& data,
-                                       const std::uint8_t* block, std::size_t count,
-                                       std::int64_t limit, std::int64_t& found) {
-  switch (data.piece) {
-    case 16:
-      return scanChunks<16>(data, block, count, limit, found);
+EXEMPLAR_MULTIVERSION std::size_t scanFloats(const FloatChunks& chunks, const float* block,
+                                             std::size_t count, double limit, double& found) {
+  switch (chunks.piece) {
     case 8:
-      return scanChunks<8>(data, block, count, limit, found);
+      return scanPieces<8>(chunks, block, count, limit, found);
     case 4:
-      return scanChunks<4>(data, block, count, limit, found);
+      return scanPieces<4>(chunks, block, count, limit, found);
+    case 2:
+      return scanPieces<2>(chunks, block, count, limit, found);
     default:
-      return scanChunks<1>(data, block, count, limit, found);
+      return scanPieces<1>(chunks, block, count, limit, found);
   }
 }
 
-EXEMPLAR_MULTIVERSION std::size_t scan(const BlockSum<float>::Data& data, const float* block,
-                                       std::size_t count, double limit, double& found) {
-  switch (data.piece) {
-    case 8:
-      return scanChunks<8>(data, block, count, limit, found);
-    case 4:
-      return scanChunks<4>(data, block, count, limit, found);
-    default:
-      return scanChunks<1>(data, block, count, limit, found);
-  }
+std::size_t scan(const FloatChunks& chunks, const float* block, std::size_t count, double limit,
+                 double& found) {
+  return scanFloats(chunks, block, count, limit, found);
+}
+
+std::size_t scan(const BlockSum<std::uint8_t>::Chunks& chunks, const std::uint8_t* block,
+                 std::size_t count, std::int64_t limit, std::int64_t& found) {
+  return kernels::kernels().scan({chunks.source.data(), chunks.value.data(), chunks.mask.data(),
+                                  chunks.count, chunks.whole, chunks.piece},
+                                 block, count, limit, found);
 }
 
 }  // namespace
@@ -116,48 +94,63 @@ BlockSum<Sample>::BlockSum(const BlockQuery<Sample>& query, const Vec3i& sourceS
   const Vec3i size = query.samples.size();
   blockPositions(sourceSize, size);
   known_ = knownSamples(query);
-  const int widest = size.x >= kLanes ? kLanes : size.x >= 8 ? 8 : size.x >= 4 ? 4 : 1;
-  data_.piece = widest;
+  const int piece =
+      std::min(kLanes, static_cast<int>(std::bit_floor(static_cast<unsigned>(size.x))));
+  const bool all = query.known.empty();
 
   struct Piece {
-    int i, j, k, from;  // samples before `from` belong to the piece before
+    std::uint32_t source, query;
+    int repeated;  // first samples that the piece before holds already
+    int known;
   };
-  std::vector<Piece> pieces;
-  const auto known = [&](int i, int j, int k) {
-    return query.known.empty() || query.known(i, j, k) != 0;
-  };
+  std::vector<Piece> whole, partial;
+  whole.reserve(static_cast<std::size_t>(size.y) * size.z * (size.x + piece - 1) / piece);
   for (int k = 0; k < size.z; ++k)
     for (int j = 0; j < size.y; ++j)
-      for (int i = 0; i < size.x;) {
-        if (!known(i, j, k)) {
-          ++i;
-          continue;
-        }
+      for (int i = 0; i < size.x; i += piece) {
         // The last piece of a row is moved back to end with the row.
-        const int first = std::min(i, size.x - widest);
-        pieces.push_back({first, j, k, i});
-        i = first + widest;
+        const int first = std::min(i, size.x - piece);
+        Piece p{static_cast<std::uint32_t>(
+                    (static_cast<std::size_t>(k) * sourceSize.y + j) * sourceSize.x + first),
+                static_cast<std::uint32_t>(query.samples.index(first, j, k)), i - first,
+                piece - (i - first)};
+        if (!all) {
+          const std::uint8_t* known = query.known.data() + p.query;
+          p.known = 0;
+          for (int l = p.repeated; l < piece; ++l) p.known += known[l] != 0;
+        }
+        if (p.known == piece)
+          whole.push_back(p);
+        else if (p.known > 0)
+          partial.push_back(p);
       }
 
-  // Steps of about the golden ratio visit the block evenly from the start on.
-  const std::size_t n = pieces.size();
-  std::size_t step = static_cast<std::size_t>(0.618 * static_cast<double>(n)) | 1;
-  while (n > 1 && std::gcd(step, n) != 1) ++step;
-  const std::size_t perChunk = static_cast<std::size_t>(kLanes / widest);
-  data_.chunks.resize((n + perChunk - 1) / perChunk, Chunk{});
-  for (std::size_t p = 0, at = 0; p < n; ++p, at = (at + step) % n) {
-    const Piece& piece = pieces[at];
-    Chunk& chunk = data_.chunks[p / perChunk];
-    const std::size_t slot = p % perChunk;
-    chunk.source[slot] = static_cast<std::uint32_t>(
-        (static_cast<std::size_t>(piece.k) * sourceSize.y + piece.j) * sourceSize.x + piece.i);
-    for (int l = 0; l < widest; ++l) {
-      const int i = piece.i + l;
-      if (i < piece.from || !known(i, piece.j, piece.k)) continue;
-      const std::size_t lane =
-          slot * static_cast<std::size_t>(widest) + static_cast<std::size_t>(l);
-      chunk.value[lane] = static_cast<Value>(query.samples(i, piece.j, piece.k));
-      chunk.mask[lane] = kLevels ? static_cast<Value>(-1) : static_cast<Value>(1);
+  const std::size_t perChunk = static_cast<std::size_t>(kLanes / piece);
+  const std::size_t pieces = whole.size() + partial.size();
+  chunks_.piece = piece;
+  chunks_.count = (pieces + perChunk - 1) / perChunk;
+  chunks_.whole = whole.size() / perChunk;
+  chunks_.source.assign(chunks_.count * perChunk, 0);
+  chunks_.value.assign(chunks_.count * kLanes, Value{0});
+  chunks_.mask.assign(chunks_.count * kLanes, Value{0});
+  std::size_t slot = 0;
+  for (const std::vector<Piece>* list : {&whole, &partial}) {
+    // Steps of about the golden ratio visit the block evenly from the start on.
+    const std::size_t n = list->size();
+    std::size_t step = static_cast<std::size_t>(0.618 * static_cast<double>(n)) | 1;
+    while (n > 1 && std::gcd(step, n) != 1) ++step;
+    for (std::size_t i = 0, at = 0; i < n; ++i, at = (at + step) % n, ++slot) {
+      const Piece& p = (*list)[at];
+      chunks_.source[slot] = p.source;
+      Value* value = chunks_.value.data() + slot * static_cast<std::size_t>(piece);
+      Value* mask = chunks_.mask.data() + slot * static_cast<std::size_t>(piece);
+      const Sample* samples = query.samples.data() + p.query;
+      const std::uint8_t* known = all ? nullptr : query.known.data() + p.query;
+      for (int l = p.repeated; l < piece; ++l) {
+        if (known && known[l] == 0) continue;
+        value[l] = static_cast<Value>(samples[l]);
+        mask[l] = kLevels ? static_cast<Value>(-1) : static_cast<Value>(1);
+      }
     }
   }
 }
@@ -165,13 +158,13 @@ BlockSum<Sample>::BlockSum(const BlockQuery<Sample>& query, const Vec3i& sourceS
 template <class Sample>
 SquaredSum<Sample> BlockSum<Sample>::sum(const Sample* block, Sum limit) const {
   Sum found;
-  return scan(data_, block, 1, limit, found) == 0 ? found : limit + 1;
+  return scan(chunks_, block, 1, limit, found) == 0 ? found : limit + 1;
 }
 
 template <class Sample>
 std::size_t BlockSum<Sample>::firstWithin(const Sample* block, std::size_t count, Sum limit,
                                           Sum& found) const {
-  return scan(data_, block, count, limit, found);
+  return scan(chunks_, block, count, limit, found);
 }
 
 template class BlockSum<std::uint8_t>;

@@ -41,24 +41,23 @@ class BlockSum {
   std::size_t firstWithin(const Sample* block, std::size_t count, Sum limit, Sum& found) const;
 
   static constexpr bool kLevels = std::is_same_v<Sample, std::uint8_t>;
-  static constexpr int kLanes = kLevels ? 16 : 8;
+  static constexpr int kLanes = kLevels ? 32 : 8;
   using Value = std::conditional_t<kLevels, std::int16_t, float>;
 
-  /// As many known samples as a vector has lanes, gathered from pieces of rows. A piece has a power
-  /// of two of samples, so that it is one load, and lies within its row, so that no load leaves the
-  /// source.
-  struct Chunk {
-    alignas(32) Value value[kLanes];  ///< 0 where unknown
-    alignas(32) Value mask[kLanes];   ///< all bits, or 1.0f, where known
-    std::uint32_t source[kLanes];     ///< of each piece, from the block's first sample
-  };
-  struct Data {
-    std::vector<Chunk> chunks;
-    int piece = kLanes;  ///< samples
+  /// Known samples, as many at a time ("a chunk") as a vector has lanes, gathered from pieces of
+  /// rows. A piece has a power of two of samples, so that it is one load, and lies within its row,
+  /// so that no load leaves the source.
+  struct Chunks {
+    std::vector<std::uint32_t> source;  ///< of each piece, from the block's first sample
+    std::vector<Value> value;           ///< kLanes a chunk; 0 where unknown
+    std::vector<Value> mask;            ///< kLanes a chunk; all bits, or 1.0f, where known
+    std::size_t count = 0;              ///< chunks
+    std::size_t whole = 0;              ///< the first so many have no unknown sample
+    int piece = kLanes;                 ///< samples
   };
 
  private:
-  Data data_;
+  Chunks chunks_;
   std::int64_t known_ = 0;
 };
 

@@ -1,0 +1,489 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "search/block_index.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "core/error.h"
+#include "search/block_index_data.h"
+
+namespace exemplar {
+
+namespace {
+
+using kernels::kFeatures;
+using kernels::kWide;
+using Numbers = CellFeatures::Numbers;
+
+}  // namespace
+
+// Where found blocks go. `limit` is the largest sum that is still of interest.
+namespace {
+
+template <class Sum>
+constexpr Sum kNoLimit = std::numeric_limits<Sum>::max();
+
+template <class Sum>
+struct BestBlock {
+  Sum limit = kNoLimit<Sum>;
+  std::uint32_t position = kNoPosition;
+
+  // At distance 0 only a lower position can come before.
+  bool hopeless(std::uint32_t lowest) const { return limit == 0 && lowest > position; }
+  void offer(Sum sum, std::uint32_t at) {
+    if (sum < limit || (sum == limit && at < position)) {
+      limit = sum;
+      position = at;
+    }
+  }
+};
+
+template <class Sum>
+struct NearestBlocks {
+  std::size_t count = 0;
+  std::vector<std::pair<Sum, std::uint32_t>> heap{};
+  Sum limit = kNoLimit<Sum>;
+
+  bool hopeless(std::uint32_t lowest) const {
+    return limit == 0 && heap.size() == count && lowest > heap.front().second;
+  }
+  void offer(Sum sum, std::uint32_t at) {
+    heap.emplace_back(sum, at);
+    std::ranges::push_heap(heap);
+    if (heap.size() > count) {
+      std::ranges::pop_heap(heap);
+      heap.pop_back();
+    }
+    if (heap.size() == count) limit = heap.front().first;
+  }
+};
+
+// Work in units of about a nanosecond; when the search has cost a quarter of a linear scan, the
+// scan takes over.
+struct Work {
+  static constexpr std::int64_t kNode = 40, kLeaf = 40, kBox = 400;
+  static std::int64_t block(std::int64_t known) { return 60 + known / 15; }
+  static std::int64_t scanned(std::int64_t known) { return 10 + known / 40; }
+};
+
+}  // namespace
+
+template <class Sample>
+class BlockIndexSearch {
+ public:
+  using Data = BlockIndexData<Sample>;
+  using Sum = SquaredSum<Sample>;
+
+  BlockIndexSearch(const Data& index, const BlockQuery<Sample>& query)
+      : index_(index), kernels_(kernels::kernels()) {
+    if (query.samples.size() != index.block)
+      throw InputError("a block index was asked for a block of another size than its own");
+    for (const IndexedSource<Sample>& source : index.sources) {
+      // Offsets of rows differ with the size of the source.
+      const bool sameAsBefore =
+          !sums_.empty() && source.samples.size() == index.sources[sums_.size() - 1].samples.size();
+      if (!sameAsBefore) sumStore_.emplace_back(query, source.samples.size());
+      sums_.push_back(sumStore_.size() - 1);
+    }
+    features_ = index.features->ofQuery(query, index.slopes);
+    for (int c = 0; c < 8; ++c) {
+      const bool says = features_.meanLow[c] > 0 || features_.meanHigh[c] < 32767;
+      if (says) cells_[cellCount_++] = static_cast<std::uint8_t>(c);
+    }
+    known_ = sumStore_[0].known();
+    budget_ = index.positionCount * Work::scanned(known_) / 4;
+  }
+
+  const BlockSum<Sample>& sums(int source) const { return sumStore_[sums_[source]]; }
+
+  template <class Found>
+  void offer(std::uint32_t position, Found& found) {
+    const int s = index_.sourceOf(position);
+    const IndexedSource<Sample>& source = index_.sources[s];
+    const Sum sum = sums(s).sum(source.samples.data() + (position - source.offset), found.limit);
+    ++statistics_.blocks;
+    budget_ -= Work::block(known_);
+    if (sum <= found.limit) {
+      found.offer(sum, position);
+      updateBound(found.limit);
+    }
+  }
+
+  template <class Found>
+  void run(Found& found) {
+    updateBound(found.limit);
+    struct Open {
+      std::uint32_t bound, node, lowest;
+      int level;
+    };
+    // Fifteen children wait at each level while the sixteenth is worked on.
+    Open stack[kWide * 10];
+    int open = 0;
+    stack[open++] = {0, 0, 0, static_cast<int>(index_.levels.size()) - 1};
+    while (open > 0) {
+      const Open at = stack[--open];
+      if (at.bound > bound_ || found.hopeless(at.lowest)) continue;
+      if (budget_ < 0) {
+        scan(found);
+        return;
+      }
+      ++statistics_.nodes;
+      budget_ -= Work::kNode;
+      const IndexNode& node = index_.levels[at.level][at.node];
+      alignas(64) std::uint32_t gaps[kWide];
+      std::uint32_t within = kernels_.boxGaps(node.boxes, features_, bound_, gaps);
+      within &= Data::there(at.node, index_.childrenAt(at.level));
+      const std::uint32_t first = at.node * kWide;
+      int order[kWide], count = 0;
+      for (; within != 0; within &= within - 1) {
+        const int c = std::countr_zero(within);
+        if (found.hopeless(node.lowest[c])) continue;
+        // Only the first leaves have to come in order, to find a good limit.
+        if (at.level == 0 && bound_ < kernels::kLargestBound)
+          order[count++] = c;
+        else
+          insert(gaps, order, count, c);
+      }
+      if (at.level == 0) {
+        searchLeaves(first, order, count, found);
+        continue;
+      }
+      // The nearest on top.
+      while (count > 0) {
+        const std::uint32_t c = static_cast<std::uint32_t>(order[--count]);
+        prefetch(index_.levels[at.level - 1][first + c]);
+        stack[open++] = {gaps[c], first + c, node.lowest[c], at.level - 1};
+      }
+    }
+  }
+
+  BlockIndexStatistics statistics_;
+
+ private:
+  template <class T>
+  static void prefetch(const T& what) {
+    const char* at = reinterpret_cast<const char*>(&what);
+    for (std::size_t byte = 0; byte < sizeof(T); byte += 64) __builtin_prefetch(at + byte);
+  }
+
+  static void insert(const std::uint32_t* gaps, int* order, int& count, int c) {
+    int i = count++;
+    for (; i > 0 && gaps[order[i - 1]] > gaps[c]; --i) order[i] = order[i - 1];
+    order[i] = c;
+  }
+
+  // Sums of squared gaps above this belong to blocks beyond the limit.
+  void updateBound(Sum limit) {
+    const double scale = index_.features->scale();
+    const double bound = static_cast<double>(limit) * scale * scale * (1 + 1e-9);
+    bound_ =
+        bound < kernels::kLargestBound ? static_cast<std::uint32_t>(bound) : kernels::kLargestBound;
+  }
+
+  // Leaves are seldom in a cache. So all of a node are asked for first, then their means are looked
+  // at, and the details of those that are left are asked for before the first of them is looked at.
+  template <class Found>
+  void searchLeaves(std::uint32_t first, const int* order, int count, Found& found) {
+    struct Left {
+      std::uint32_t leaf, within;
+      alignas(64) std::uint32_t gaps[kWide];
+    };
+    Left left[kWide];
+    int leftCount = 0;
+    for (int o = 0; o < count; ++o)
+      prefetch(index_.leaves[first + static_cast<std::uint32_t>(order[o])].means);
+    statistics_.leaves += count;
+    budget_ -= count * Work::kLeaf;
+    for (int o = 0; o < count; ++o) {
+      Left& here = left[leftCount];
+      here.leaf = first + static_cast<std::uint32_t>(order[o]);
+      const IndexLeaf& leaf = index_.leaves[here.leaf];
+      here.within = kernels_.meanGaps(leaf.means, features_, bound_, here.gaps) &
+                    Data::there(here.leaf, index_.entryCount);
+      if (here.within == 0) continue;
+      prefetch(index_.details[here.leaf]);
+      ++leftCount;
+    }
+    for (int l = 0; l < leftCount; ++l) {
+      Left& here = left[l];
+      here.within &= kernels_.detailGaps(index_.details[here.leaf], features_, bound_, here.gaps);
+      if (here.within != 0)
+        searchEntries(index_.leaves[here.leaf].entry, here.within, here.gaps, found);
+    }
+  }
+
+  template <class Found>
+  void searchEntries(const std::uint32_t* entry, std::uint32_t within, const std::uint32_t* gaps,
+                     Found& found) {
+    int order[kWide], count = 0;
+    for (; within != 0; within &= within - 1) {
+      const int c = std::countr_zero(within);
+      if (!found.hopeless(entry[c])) insert(gaps, order, count, c);
+    }
+    for (int o = 0; o < count; ++o) {
+      if (gaps[order[o]] > bound_) return;
+      if (index_.side == 1)
+        offer(entry[order[o]], found);
+      else
+        searchBox(entry[order[o]], found);
+    }
+  }
+
+  template <class Found>
+  void searchBox(std::uint32_t entry, Found& found) {
+    ++statistics_.boxes;
+    budget_ -= Work::kBox;
+    const IndexedSource<Sample>& source = index_.sources[index_.sourceOf(entry)];
+    const Vec3i first = source.samples.ijk(entry - source.offset);
+    const Vec3i size = min(source.positions - first, Vec3i{2, 2, 2});
+    const CellLayout& layout = *index_.layout;
+    for (int n = 0; n < cellCount_; ++n) {
+      const int c = cells_[n];
+      for (int p = 0; p < 8; ++p) {
+        // Positions that do not exist repeat one that does.
+        const Vec3i at =
+            first + layout.first[c] + min(Vec3i{p & 1, p >> 1 & 1, p >> 2}, size - Vec3i{1, 1, 1});
+        std::memcpy(buffer_.value[c][p], source.differences[at].data(), kFeatures);
+        std::memcpy(buffer_.center[c][p], source.centers(at.x / 2, at.y / 2, at.z / 2).data(),
+                    sizeof(Numbers));
+      }
+    }
+    buffer_.shift = index_.differenceShift;
+    buffer_.width =
+        static_cast<std::int16_t>((1 << index_.differenceShift) / 2 + index_.features->margin());
+    std::uint32_t gaps[kWide];
+    kernels_.cellGaps(buffer_, features_, cells_, cellCount_, gaps);
+    int order[kWide], count = 0;
+    for (int p = 0; p < 8; ++p) {
+      const Vec3i step{p & 1, p >> 1 & 1, p >> 2};
+      if (gaps[p] <= bound_ && min(step, size - Vec3i{1, 1, 1}) == step)
+        insert(gaps, order, count, p);
+    }
+    for (int o = 0; o < count; ++o) {
+      const int p = order[o];
+      if (gaps[p] > bound_) return;
+      const std::uint32_t position =
+          entry + static_cast<std::uint32_t>(source.samples.index({p & 1, p >> 1 & 1, p >> 2}));
+      if (index_.live[position]) offer(position, found);
+    }
+  }
+
+  template <class Found>
+  void scan(Found& found) {
+    statistics_.scanned = true;
+    // From the start, for ties go to the lowest index; what was found before is a limit and found
+    // again.
+    if constexpr (requires { found.heap; }) found.heap.clear();
+    for (std::size_t s = 0; s < index_.sources.size(); ++s) {
+      const IndexedSource<Sample>& source = index_.sources[s];
+      for (int k = 0; k < source.positions.z; ++k)
+        for (int j = 0; j < source.positions.y; ++j) {
+          const std::size_t row = source.samples.index(0, j, k);
+          const std::size_t end = static_cast<std::size_t>(source.positions.x);
+          for (std::size_t i = 0; i < end; ++i) {
+            Sum sum;
+            i += sums(static_cast<int>(s))
+                     .firstWithin(source.samples.data() + row + i, end - i, found.limit, sum);
+            if (i >= end) break;
+            const auto position = static_cast<std::uint32_t>(source.offset + row + i);
+            if (index_.live[position]) found.offer(sum, position);
+          }
+        }
+    }
+  }
+
+  const Data& index_;
+  const kernels::Kernels& kernels_;
+  kernels::QueryFeatures features_;
+  kernels::Cells buffer_;
+  std::uint8_t cells_[8] = {};
+  int cellCount_ = 0;
+  std::vector<BlockSum<Sample>> sumStore_;
+  std::vector<std::size_t> sums_;
+  std::int64_t known_ = 0, budget_ = 0;
+  std::uint32_t bound_ = 0;
+};
+
+namespace {
+
+// Positions whose blocks equal the one at `position`, itself first, at most `count`, by rising
+// index.
+template <class Sample>
+std::vector<std::uint32_t> equalBlocks(const BlockIndexData<Sample>& index, std::uint32_t position,
+                                       std::size_t count) {
+  const IndexedSource<Sample>& source = index.sources[index.sourceOf(position)];
+  const auto same = [&](const Vec3i& a, const Vec3i& b) {
+    for (int k = 0; k < index.block.z; ++k)
+      for (int j = 0; j < index.block.y; ++j)
+        for (int i = 0; i < index.block.x; ++i) {
+          const Vec3i o{i, j, k};
+          if (source.samples[a + o] != source.samples[b + o]) return false;
+        }
+    return true;
+  };
+  std::vector<std::uint32_t> found;
+  std::set<std::uint32_t> open{position};
+  while (!open.empty() && found.size() < count) {
+    const std::uint32_t at = *open.begin();
+    open.erase(open.begin());
+    found.push_back(at);
+    const Vec3i p = source.samples.ijk(at - source.offset);
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3i next = p;
+      if (++next[axis] >= source.positions[axis]) continue;
+      const auto n = static_cast<std::uint32_t>(source.offset + source.samples.index(next));
+      // Only positions that were left out can be repeats.
+      if (!index.live[n] && index.allowed(n) && !open.contains(n) && same(p, next)) open.insert(n);
+    }
+  }
+  return found;
+}
+
+template <class Sample>
+BlockMatch matchAt(const BlockIndexData<Sample>& index, const BlockSum<Sample>& sums,
+                   SquaredSum<Sample> sum, std::uint32_t position) {
+  const int s = index.sourceOf(position);
+  const IndexedSource<Sample>& source = index.sources[s];
+  return {source.samples.ijk(position - source.offset), sums.distance(sum), s};
+}
+
+// What was found, with all blocks that equal one of those, nearest first.
+template <class Sample, class Sum>
+std::vector<BlockMatch> collect(const BlockIndexData<Sample>& index, const BlockSum<Sample>& sums,
+                                const NearestBlocks<Sum>& found) {
+  std::vector<std::pair<Sum, std::uint32_t>> all;
+  for (const auto& [sum, position] : found.heap)
+    for (std::uint32_t equal : equalBlocks<Sample>(index, position, found.count))
+      all.emplace_back(sum, equal);
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  if (all.size() > found.count) all.resize(found.count);
+  std::vector<BlockMatch> matches;
+  for (const auto& [sum, position] : all)
+    matches.push_back(matchAt<Sample>(index, sums, sum, position));
+  return matches;
+}
+
+}  // namespace
+
+template <class Sample>
+BlockIndex<Sample>::BlockIndex(std::vector<Array3D<Sample>> sources, const Vec3i& block,
+                               const BlockIndexOptions& options) {
+  if (sources.empty()) throw InputError("a block index needs at least one source");
+  auto data = std::make_unique<BlockIndexData<Sample>>();
+  data->block = block;
+  for (Array3D<Sample>& source : sources) {
+    data->sources.emplace_back();
+    data->sources.back().samples = std::move(source);
+  }
+  data->build(options);
+  data_ = std::move(data);
+}
+
+template <class Sample>
+BlockIndex<Sample>::BlockIndex(Array3D<Sample> source, const Vec3i& block,
+                               const BlockIndexOptions& options)
+    : BlockIndex(
+          [&] {
+            std::vector<Array3D<Sample>> sources;
+            sources.push_back(std::move(source));
+            return sources;
+          }(),
+          block, options) {}
+
+template <class Sample>
+BlockIndex<Sample>::BlockIndex(BlockIndex&&) noexcept = default;
+template <class Sample>
+BlockIndex<Sample>& BlockIndex<Sample>::operator=(BlockIndex&&) noexcept = default;
+template <class Sample>
+BlockIndex<Sample>::~BlockIndex() = default;
+
+template <class Sample>
+BlockMatch BlockIndex<Sample>::findBest(const BlockQuery<Sample>& query,
+                                        std::span<const BlockMatch> hints,
+                                        BlockIndexStatistics* statistics) const {
+  BlockIndexSearch<Sample> search(*data_, query);
+  BestBlock<SquaredSum<Sample>> found;
+  for (const BlockMatch& hint : hints) {
+    if (hint.source < 0 || hint.source >= sources()) continue;
+    const IndexedSource<Sample>& source = data_->sources[hint.source];
+    if (max(hint.position, Vec3i{}) != hint.position ||
+        min(hint.position, source.positions - Vec3i{1, 1, 1}) != hint.position)
+      continue;
+    const auto at = static_cast<std::uint32_t>(source.offset + source.samples.index(hint.position));
+    if (data_->allowed(at)) search.offer(at, found);
+  }
+  search.run(found);
+  if (statistics) *statistics = search.statistics_;
+  const int s = data_->sourceOf(found.position);
+  return matchAt<Sample>(*data_, search.sums(s), found.limit, found.position);
+}
+
+template <class Sample>
+std::vector<BlockMatch> BlockIndex<Sample>::findNearest(const BlockQuery<Sample>& query, int count,
+                                                        BlockIndexStatistics* statistics) const {
+  if (count < 1) throw InputError("the number of blocks to find must be at least 1");
+  BlockIndexSearch<Sample> search(*data_, query);
+  NearestBlocks<SquaredSum<Sample>> found{static_cast<std::size_t>(count)};
+  search.run(found);
+  if (statistics) *statistics = search.statistics_;
+  return collect<Sample>(*data_, search.sums(0), found);
+}
+
+template <class Sample>
+std::vector<BlockMatch> BlockIndex<Sample>::findWithin(const BlockQuery<Sample>& query,
+                                                       double tolerance, int limit,
+                                                       BlockIndexStatistics* statistics) const {
+  using Sum = SquaredSum<Sample>;
+  if (!(tolerance >= 0)) throw InputError("the tolerance of a match must be at least 0");
+  if (limit < 1) throw InputError("the number of blocks to find must be at least 1");
+  BlockIndexSearch<Sample> first(*data_, query);
+  BestBlock<Sum> best;
+  first.run(best);
+  BlockIndexSearch<Sample> search(*data_, query);
+  NearestBlocks<Sum> found{static_cast<std::size_t>(limit)};
+  found.limit =
+      static_cast<Sum>(std::min(static_cast<double>(best.limit) * (1 + tolerance),
+                                static_cast<double>(std::numeric_limits<std::int64_t>::max() / 2)));
+  search.run(found);
+  if (statistics) *statistics = search.statistics_;
+  return collect<Sample>(*data_, search.sums(0), found);
+}
+
+template <class Sample>
+const Vec3i& BlockIndex<Sample>::block() const {
+  return data_->block;
+}
+template <class Sample>
+int BlockIndex<Sample>::sources() const {
+  return static_cast<int>(data_->sources.size());
+}
+template <class Sample>
+const Array3D<Sample>& BlockIndex<Sample>::source(int number) const {
+  return data_->sources[number].samples;
+}
+template <class Sample>
+std::int64_t BlockIndex<Sample>::positions() const {
+  return data_->positionCount;
+}
+template <class Sample>
+std::int64_t BlockIndex<Sample>::bytes() const {
+  std::size_t bytes =
+      data_->leaves.size() * sizeof(IndexLeaf) + data_->live.bytes() + data_->allowedBits.bytes();
+  for (const auto& level : data_->levels) bytes += level.size() * sizeof(IndexNode);
+  for (const IndexedSource<Sample>& source : data_->sources)
+    bytes += source.centers.count() * sizeof(Numbers) + source.differences.count() * kFeatures;
+  return static_cast<std::int64_t>(bytes);
+}
+
+template class BlockIndex<std::uint8_t>;
+template class BlockIndex<float>;
+
+}  // namespace exemplar

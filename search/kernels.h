@@ -1,0 +1,104 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// The innermost loops of matching, in whole numbers. Written once over 16-bit lanes
+/// (`kernels_impl.h`), compiled for the machine's baseline, for AVX2 and for AVX-512, and chosen
+/// when the program starts. Integers make every version give the same results.
+namespace exemplar::kernels {
+
+constexpr int kWide = 16;      ///< children of a node, entries of a leaf
+constexpr int kFeatures = 4;   ///< of a cell: its mean, and three details
+constexpr int kMeans = 8;      ///< of a block: one of each cell
+constexpr int kDetails = 24;   ///< of a block: three of each cell
+constexpr int kSumLanes = 32;  ///< samples that are summed at once
+
+/// Where a cell's detail 0, 1 or 2 stands among a block's. Multiply-and-add takes neighbours in
+/// pairs: each cell's first two are one, then come the third ones.
+constexpr int detail(int cell, int number) { return number < 2 ? 2 * cell + number : 16 + cell; }
+
+/// Gaps beyond this count as this, so that the squares of all 32 stay below 2^31.
+constexpr std::int16_t kLargestGap = 8190;
+/// No sum of squared gaps is larger.
+constexpr std::uint32_t kLargestBound = 0x7fffffff;
+
+/// What a query says in each dimension: a range, 0..32767, and how much a gap to it weighs.
+struct QueryFeatures {
+  alignas(64) std::int16_t meanLow[kMeans];
+  std::int16_t meanHigh[kMeans];
+  std::uint16_t meanWeight[kMeans];  ///< of a gap, in 65536ths; where `weighted`
+  alignas(64) std::int16_t detailLow[kDetails];
+  std::int16_t detailHigh[kDetails];
+  std::uint8_t detailPair[kDetails / 2];  ///< the pairs that say anything
+  int detailPairs;                        ///< how many
+  bool weighted;
+};
+
+/// Sixteen boxes in the space of means: from `base + (low << shift)` to `base + (high << shift)`.
+/// Dimension d stands in pair d / 2, lane d % 2.
+struct MeanBoxes {
+  alignas(64) std::uint8_t low[kMeans / 2][kWide][2];
+  std::uint8_t high[kMeans / 2][kWide][2];
+  std::int16_t base[kMeans];
+  std::uint8_t shift;
+};
+
+/// Sixteen boxes of one size: centre `base + (value << shift)`, plus or minus `width`.
+template <int dimensions>
+struct Points {
+  alignas(64) std::uint8_t value[dimensions / 2][kWide][2];
+  std::int16_t base[dimensions];
+  std::int16_t width[dimensions];
+  std::uint8_t shift;
+};
+using MeanPoints = Points<kMeans>;
+using DetailPoints = Points<kDetails>;
+
+/// Features of the cells at eight positions, for each of up to eight cells of a block:
+/// `center + ((value - 128) << shift)`, plus or minus `width`.
+struct Cells {
+  alignas(64) std::uint8_t value[8][8][kFeatures];  ///< [cell][position][feature]
+  alignas(64) std::int16_t center[8][8][kFeatures];
+  int shift;
+  std::int16_t width;
+};
+
+/// A vector of known samples, gathered from pieces of rows (see `BlockSum`).
+struct SumChunks {
+  const std::uint32_t* source;  ///< offsets of pieces, kSumLanes / piece of them a chunk
+  const std::int16_t* value;    ///< kSumLanes a chunk; 0 where unknown
+  const std::int16_t* mask;     ///< kSumLanes a chunk; all bits where known
+  std::size_t count;            ///< chunks
+  std::size_t whole;            ///< the first so many have no unknown sample
+  int piece;                    ///< 1, 2, 4, 8, 16 or 32 samples
+};
+
+struct Kernels {
+  const char* name;
+  /// Sums of squared gaps, weighted, between the query's ranges and sixteen boxes. Bit c of the
+  /// result is set where sum c is at most `bound`, which is at most kLargestBound.
+  std::uint32_t (*boxGaps)(const MeanBoxes&, const QueryFeatures&, std::uint32_t bound,
+                           std::uint32_t* sums);
+  std::uint32_t (*meanGaps)(const MeanPoints&, const QueryFeatures&, std::uint32_t bound,
+                            std::uint32_t* sums);
+  /// Adds to the sums of `meanGaps`.
+  std::uint32_t (*detailGaps)(const DetailPoints&, const QueryFeatures&, std::uint32_t bound,
+                              std::uint32_t* sums);
+  /// The same for the blocks at eight positions, of whose cells those in `cells` count.
+  void (*cellGaps)(const Cells&, const QueryFeatures&, const std::uint8_t* cells, int cellCount,
+                   std::uint32_t* sums);
+  /// As `BlockSum::firstWithin`, for levels.
+  std::size_t (*scan)(const SumChunks&, const std::uint8_t* block, std::size_t count,
+                      std::int64_t limit, std::int64_t& found);
+};
+
+/// The fastest that this machine runs.
+const Kernels& kernels();
+/// Those that this machine runs, for tests.
+const Kernels* const* availableKernels(int& count);
+
+}  // namespace exemplar::kernels
