@@ -14,6 +14,8 @@
 #include "core/random.h"
 #include "sdf/resample.h"
 #include "search/nearest_neighbor_field.h"
+#include "synth/geometry/broken_pieces.h"
+#include "synth/geometry/even_seams.h"
 #include "synth/geometry/seams.h"
 
 namespace exemplar {
@@ -23,11 +25,13 @@ constexpr std::uint32_t kStartStream = 0x0b71, kSearchStream = 0x0b72;
 /// Samples along the longest side of the coarsest level, about.
 constexpr int kCoarsestSide = 16;
 /// Above this many pairs of patches the search is by PatchMatch.
-constexpr double kExactPairs = 3e7;
+constexpr double kExactPairs = 3e6;
+/// Iterations of PatchMatch: from random blocks, and from a field that is nearly right.
+constexpr int kFirstIterations = 8, kIterations = 2;
 /// Distance of neighbouring patches where the search is by PatchMatch.
 constexpr int kStride = 2;
 /// Seams see distances up to here, in voxels: one through air or through solid is free.
-constexpr float kSeamTruncation = 1.5f;
+constexpr float kSeamTruncation = 2.5f;
 
 /// One level of the pyramid: the example, shrunk, in voxels of the level, framed by air on the
 /// sides where the example ends in air.
@@ -166,6 +170,43 @@ Sources refine(const Level& coarse, const Sources& from, const Level& fine) {
   return sources;
 }
 
+/// The field that a level's search starts from: each patch at where its middle comes from.
+NearestNeighborField startField(const Level& level, const Sources& sources, const Vec3i& stride) {
+  NearestNeighborField field;
+  const Vec3i last = sources.size() - level.patch;
+  const Vec3i lastMatch = level.source.size() - level.patch;
+  const Vec3i half{level.patch.x / 2, level.patch.y / 2, level.patch.z / 2};
+  field.stride = stride;
+  field.position =
+      Array3D<Vec3i>({last.x / stride.x + 1, last.y / stride.y + 1, last.z / stride.z + 1});
+  for (std::size_t s = 0; s < field.position.count(); ++s) {
+    const Vec3i middle = scaled(field.position.ijk(s), stride) + half;
+    field.position.values()[s] = max(Vec3i{0, 0, 0}, min(sources[middle] - half, lastMatch));
+  }
+  return field;
+}
+
+/// The completeness term: how welcome each position of the source is, 1 / (alpha + the distance of
+/// its patch to the nearest in the target). `reverse`, the field that this is found by, is kept
+/// from round to round.
+Array3D<float> welcome(const Level& level, const Array3D<float>& target, double alpha,
+                       NearestNeighborFieldOptions search, NearestNeighborField& reverse,
+                       const Progress& progress) {
+  const NearestNeighborField previous = std::move(reverse);
+  search.method = NeighborMethod::PatchMatch;
+  search.stride = {1, 1, 1};
+  search.sourceWeight = nullptr;
+  search.start = previous.position.empty() ? nullptr : &previous;
+  search.iterations = search.start ? 2 : 5;
+  reverse = nearestNeighborField({target}, {level.source}, search, progress);
+  Array3D<float> weight(level.source.size(), 1.0f);
+  for (std::size_t s = 0; s < reverse.distance.count(); ++s) {
+    weight[reverse.distance.ijk(s)] =
+        1.0f / (static_cast<float>(alpha) + reverse.distance.values()[s]);
+  }
+  return weight;
+}
+
 std::vector<float> gaussian(int patch) {
   std::vector<float> weights(patch);
   const double sigma = patch / 3.0;
@@ -286,7 +327,7 @@ void check(const DistanceField& example, const OptimizeOptions& options) {
     fail("rounds " + std::to_string(options.rounds) + ": expected 1 to 100");
   if (!(options.truncation > 0)) fail("truncation must be above 0");
   if (!(options.completeness > 0)) fail("completeness must be above 0");
-  requireMemory(60.0 * static_cast<double>(volume(options.size)), "a result of this size",
+  requireMemory(150.0 * static_cast<double>(volume(options.size)), "a result of this size",
                 "use a lower resolution or a smaller scale");
 }
 
@@ -333,15 +374,27 @@ SynthesisResult synthesizeOptimized(const DistanceField& example, const Optimize
     search.method = exact ? NeighborMethod::Exact : NeighborMethod::PatchMatch;
     search.stride = exact ? Vec3i{1, 1, 1} : min(Vec3i{kStride, kStride, kStride}, level.patch);
 
-    NearestNeighborField field;
-    for (int round = 0; round < options.rounds; ++round) {
+    // The finest level only has detail to add, and most of the work.
+    const int rounds = l > 0 ? options.rounds : (2 * options.rounds + 2) / 3;
+    NearestNeighborField field, reverse;
+    Array3D<float> weight;
+    for (int round = 0; round < rounds; ++round) {
       progress.report(
           "optimising, level " + std::to_string(levels - l) + " of " + std::to_string(levels),
-          static_cast<double>(round) / options.rounds);
+          static_cast<double>(round) / rounds);
       search.seed = Random(options.seed, kSearchStream).bits(l, round);
-      search.iterations = round == 0 ? 8 : 3;
-      NearestNeighborField previous = std::move(field);
-      search.start = round == 0 ? nullptr : &previous;
+      search.iterations = round == 0 && l == levels - 1 ? kFirstIterations : kIterations;
+      const NearestNeighborField previous =
+          round == 0 ? startField(level, sources, search.stride) : std::move(field);
+      search.start = &previous;
+      if (std::isfinite(options.completeness) && (l > 0 || levels == 1)) {
+        weight = welcome(level, target, options.completeness, search, reverse, progress);
+        if (!reverse.complete) {
+          result.status = SynthesisStatus::Cancelled;
+          break;
+        }
+        search.sourceWeight = &weight;
+      }
       field = nearestNeighborField({level.source}, {target}, search, progress);
       if (!field.complete || progress.cancelled()) {
         result.status = SynthesisStatus::Cancelled;
@@ -377,12 +430,9 @@ SynthesisResult synthesizeOptimized(const DistanceField& example, const Optimize
     result.status = SynthesisStatus::Cancelled;
     return result;
   }
+  dropBrokenPieces(example, origins);
+  result.field = evenSeams(example, origins);
   result.origins = std::move(origins);
-  result.field = example;
-  result.field.values = Array3D<float>(options.size);
-  for (std::size_t s = 0; s < result.origins.count(); ++s) {
-    result.field.values.values()[s] = example.values[result.origins.values()[s].cell()];
-  }
   return result;
 }
 

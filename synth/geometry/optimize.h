@@ -17,11 +17,13 @@ struct OptimizeOptions {
   int patch = 7;  ///< samples a side, 3..15; along a thinner axis its whole thickness
   std::optional<int>
       levels;      ///< 1..8; by default the coarsest has about 16 samples along the longest side
-  int rounds = 6;  ///< searches and votes a level, 1..100
+  int rounds = 6;  ///< searches and votes a level, 1..100; the finest takes two thirds of them
   double truncation = 4;  ///< distances count up to here, in voxels of the level; > 0
-  /// α of the completeness term (Granot et al. 2022, section 4.1), in squared voxels: the smaller,
-  /// the more each part of the example gets its turn; > 0, infinite for none.
-  double completeness = 0.05;
+  /// α of the completeness term (Granot et al., "Drop the GAN: in defense of patches nearest
+  /// neighbors as single image generative models", CVPR 2022, section 4.1), in squared voxels: the
+  /// smaller, the more each part of the example gets its turn; > 0, infinite for none. It works on
+  /// all levels but the finest (which only adds detail), unless that is the only one.
+  double completeness = 0.2;
   std::optional<StationaryAxes> stationary;  ///< found from the example by default
 };
 
@@ -30,13 +32,17 @@ struct OptimizeOptions {
 /// optimization for example-based synthesis", SIGGRAPH 2005, doi:10.1145/1073204.1073263; Simakov
 /// et al., "Summarizing visual data using bidirectional similarity", CVPR 2008,
 /// doi:10.1109/CVPR.2008.4587842). The last step copies instead of averaging: each sample takes the
-/// origin on which the patches that cover it agree most, and the borders of the copied pieces move
-/// to where both sides agree best.
+/// origin on which the patches that cover it agree most, the borders of the copied pieces move to
+/// where both sides agree best (`refineSeams`), what has broken off is cleared away
+/// (`dropBrokenPieces`), and steps across borders are evened out (`evenSeams`).
+///
+/// So each sample has the sign of the example at its origin; its value is the example's to the bit
+/// away from the borders of copied pieces, and nearly a distance beside them.
 ///
 /// Sides of the example's box that lie wholly outside the solid (a free-standing object with air
 /// around it) stay outside in the result; elsewhere the result is a window into something larger.
 ///
-/// Cost: O(samples of the result x patch^3 x rounds) for each level's PatchMatch; memory about 60
+/// Cost: O(samples of the result x patch^3 x rounds) for each level's PatchMatch; memory about 150
 /// bytes a sample of the result. The same bytes at any number of threads. Throws `InputError` for
 /// options out of range.
 SynthesisResult synthesizeOptimized(const DistanceField& example, const OptimizeOptions& options,

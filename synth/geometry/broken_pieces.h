@@ -1,0 +1,22 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+
+#include "core/origin.h"
+#include "sdf/distance_field.h"
+
+namespace exemplar {
+
+/// Clears away what has broken off: pieces of solid (samples below 0 that share faces) inside the
+/// box with fewer than half the samples of the example's smallest whole piece; where the example
+/// has no whole piece, of its largest. Each sample of such a piece takes the offset (example 0, no
+/// turns) of a neighbour that says air there, the nearest to its surroundings in value; only where
+/// there is none, an origin just outside the example's surface.
+///
+/// Returns how many samples changed. O(samples). Deterministic.
+std::int64_t dropBrokenPieces(const DistanceField& example, Origins& origins);
+
+}  // namespace exemplar

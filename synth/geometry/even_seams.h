@@ -1,0 +1,30 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/origin.h"
+#include "sdf/distance_field.h"
+
+namespace exemplar {
+
+struct EvenSeamsOptions {
+  int reach = 4;    ///< how far from a seam samples may change, in steps; >= 0: 0 for not at all
+  int rounds = 10;  ///< of relaxation, half a voxel each; >= 0
+};
+
+/// The field that origins (example 0, no turns) copy from `example`, with the steps between copied
+/// pieces evened out, so that it is nearly a distance across seams too.
+///
+/// Near seams the field is relaxed to slope 1 with its zero set held in place (Russo, Smereka: "A
+/// remark on computing distance functions", J. Comput. Phys. 163(1), 2000,
+/// doi:10.1006/jcph.2000.6553, sections 2-3). Blending in the gradient domain first would even out
+/// more, but rounds off what is thin; this does not change which samples are solid.
+///
+/// Samples more than `reach` steps from every seam are the example's to the bit, and the others
+/// keep their sign. Where no surface is near any seam all are. O(samples near seams x rounds). The
+/// same bytes at any number of threads.
+DistanceField evenSeams(const DistanceField& example, const Origins& origins,
+                        const EvenSeamsOptions& options = {});
+
+}  // namespace exemplar
