@@ -11,19 +11,20 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "reconstruct/dilate.h"
 #include "reconstruct/origin_map.h"
 
 namespace exemplar {
 namespace {
 
-/// Samples around one, nearest first, with their weights.
+/// A sample beside one, and how much it counts.
 struct Neighbour {
   Vec3i offset;
   double weight;
 };
 
 std::vector<Neighbour> neighbourhood(double width) {
-  const auto r = static_cast<int>(std::ceil(width + 0.5));
+  const auto r = static_cast<int>(std::ceil(width + 0.5)) - 1;
   std::vector<Neighbour> result;
   for (int k = -r; k <= r; ++k) {
     for (int j = -r; j <= r; ++j) {
@@ -35,6 +36,32 @@ std::vector<Neighbour> neighbourhood(double width) {
     }
   }
   return result;
+}
+
+/// Samples within `reach` of where parts meet near the surface.
+Array3D<std::uint8_t> seamSamples(const DistanceField& field, const Origins& origins, double near,
+                                  int reach) {
+  const Vec3i n = field.size();
+  Array3D<std::uint8_t> marks(n);
+  parallelFor(0, n.z, 1, [&](std::size_t k0, std::size_t k1) {
+    for (int k = static_cast<int>(k0); k < static_cast<int>(k1); ++k) {
+      for (int j = 0; j < n.y; ++j) {
+        for (int i = 0; i < n.x; ++i) {
+          if (std::abs(field.values(i, j, k)) > near) continue;
+          const OriginMotion own = motionAt(origins, {i, j, k});
+          for (int axis = 0; axis < 3 && !marks(i, j, k); ++axis) {
+            for (const int side : {-1, 1}) {
+              Vec3i there{i, j, k};
+              there[axis] += side;
+              if (!origins.contains(there) || std::abs(field.values[there]) > near) continue;
+              if (!(motionAt(origins, there) == own)) marks(i, j, k) = 1;
+            }
+          }
+        }
+      }
+    }
+  });
+  return dilated(std::move(marks), reach);
 }
 
 void check(const DistanceField& field, const Origins& origins,
@@ -64,6 +91,8 @@ DistanceField blendSeams(const DistanceField& field, const Origins& origins,
   const std::vector<Neighbour> neighbours = neighbourhood(options.width);
   const double near = (options.width + 2) * field.voxelSize;
   const Vec3i n = field.size();
+  const Array3D<std::uint8_t> atSeam =
+      seamSamples(field, origins, near, static_cast<int>(std::ceil(options.width)));
   DistanceField result = field;
   parallelFor(0, n.z, 1, [&](std::size_t k0, std::size_t k1) {
     struct Part {
@@ -75,13 +104,12 @@ DistanceField blendSeams(const DistanceField& field, const Origins& origins,
       for (int j = 0; j < n.y; ++j) {
         for (int i = 0; i < n.x; ++i) {
           const Vec3i at{i, j, k};
-          if (std::abs(field.values[at]) > near) continue;
+          if (!atSeam[at] || std::abs(field.values[at]) > near) continue;
           parts.clear();
           for (const Neighbour& neighbour : neighbours) {
             const Vec3i there = at + neighbour.offset;
-            if (!origins.contains(there)) continue;
             // Parts in the air have no surface to carry on.
-            if (std::abs(field.values[there]) > near) continue;
+            if (!origins.contains(there) || std::abs(field.values[there]) > near) continue;
             const OriginMotion motion = motionAt(origins, there);
             const auto known = std::find_if(parts.begin(), parts.end(),
                                             [&](const Part& p) { return p.motion == motion; });

@@ -18,9 +18,10 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
+#include "reconstruct/dilate.h"
+#include "reconstruct/example_surface.h"
 #include "sdf/openvdb_ready.h"
 #include "sdf/redistance.h"
-#include "sdf/triangle_tree.h"
 
 namespace exemplar {
 namespace {
@@ -430,42 +431,11 @@ std::int64_t dropSpecks(const ContourField& field, double smallest, TriangleMesh
   return dropped;
 }
 
-/// Marks every sample within `reach` samples of a mark along each axis.
-Array3D<std::uint8_t> dilated(Array3D<std::uint8_t> marks, int reach) {
-  const Vec3i n = marks.size();
-  for (int axis = 0; axis < 3; ++axis) {
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    parallelFor(0, static_cast<std::size_t>(n[b]) * n[c], 64, [&](std::size_t l0, std::size_t l1) {
-      std::vector<std::uint8_t> line(n[axis]);
-      for (std::size_t l = l0; l < l1; ++l) {
-        Vec3i at;
-        at[b] = static_cast<int>(l % n[b]);
-        at[c] = static_cast<int>(l / n[b]);
-        for (int i = 0; i < n[axis]; ++i) {
-          at[axis] = i;
-          line[i] = marks[at];
-        }
-        int last = -reach - 1, next = -1;  // the nearest marks behind and ahead
-        for (int i = 0; i < n[axis]; ++i) {
-          if (line[i]) last = i;
-          if (next < i) {
-            next = i;
-            while (next < n[axis] && !line[next]) ++next;
-          }
-          at[axis] = i;
-          marks[at] = i - last <= reach || (next < n[axis] && next - i <= reach);
-        }
-      }
-    });
-  }
-  return marks;
-}
-
 /// The field with its distances made right again around jumps: where neighbouring samples near the
 /// surface differ by more than their distance allows. Elsewhere it stays as it is, for a distance
 /// measured to the samples' own zero is less exact than one measured to the example.
 DistanceField repaired(const DistanceField& field) {
-  constexpr double kAllowed = 1.1;  // voxels between neighbours: 1, and some for quantised fields
+  constexpr double kAllowed = 1.5;  // voxels between neighbours: 1, and some for blended fields
   constexpr double kNear = 2;       // voxels from the surface
   constexpr int kReach = 2;         // samples around a jump that are taken anew
   constexpr int kFar = 4;           // voxels up to which distances are measured
@@ -502,18 +472,23 @@ DistanceField repaired(const DistanceField& field) {
   crossings = dilated(std::move(crossings), kReach);
   for (std::size_t s = 0; s < marks.count(); ++s) marks.values()[s] &= crossings.values()[s];
   const Array3D<std::uint8_t> around = dilated(marks, kFar + 1);
-  std::vector<Corners> surface = zeroSet(values);
-  std::erase_if(
-      surface, [&](const Corners& corners) { return !around[around.clamped(cellOf(corners[0]))]; });
-  const TriangleTree tree(std::move(surface));
+  TriangleMesh surface;
+  for (const Corners& corners : zeroSet(values)) {
+    if (!around[around.clamped(cellOf(corners[0]))]) continue;
+    const auto first = static_cast<std::uint32_t>(surface.positions.size());
+    surface.positions.insert(surface.positions.end(), corners.begin(), corners.end());
+    surface.triangles.push_back({first, first + 1, first + 2});
+  }
+  const ExampleSurface zero(surface);
   DistanceField result = field;
   parallelFor(0, n.z, 1, [&](std::size_t k0, std::size_t k1) {
     for (int k = static_cast<int>(k0); k < static_cast<int>(k1); ++k) {
       for (int j = 0; j < n.y; ++j) {
         for (int i = 0; i < n.x; ++i) {
           if (!marks(i, j, k)) continue;
-          const auto d = static_cast<float>(tree.distance({double(i), double(j), double(k)}, kFar) *
-                                            field.voxelSize);
+          const auto nearest =
+              zero.closest({double(i), double(j), double(k)}, {.radius = double{kFar}});
+          const auto d = static_cast<float>((nearest ? nearest->distance : kFar) * field.voxelSize);
           // The sign stays: -0 would count as outside.
           result.values(i, j, k) =
               values(i, j, k) < 0 ? -std::max(d, std::numeric_limits<float>::min()) : d;
