@@ -20,7 +20,6 @@ namespace {
 
 using kernels::kFeatures;
 using kernels::kWide;
-using Numbers = CellFeatures::Numbers;
 
 }  // namespace
 
@@ -119,6 +118,7 @@ class BlockIndexSearch {
   template <class Found>
   void run(Found& found) {
     updateBound(found.limit);
+    if (bound_ == kernels::kLargestBound) dive(found);
     struct Open {
       std::uint32_t bound, node, lowest;
       int level;
@@ -145,8 +145,7 @@ class BlockIndexSearch {
       for (; within != 0; within &= within - 1) {
         const int c = std::countr_zero(within);
         if (found.hopeless(node.lowest[c])) continue;
-        // Only the first leaves have to come in order, to find a good limit.
-        if (at.level == 0 && bound_ < kernels::kLargestBound)
+        if (at.level == 0)
           order[count++] = c;
         else
           insert(gaps, order, count, c);
@@ -167,6 +166,33 @@ class BlockIndexSearch {
   BlockIndexStatistics statistics_;
 
  private:
+  // A first limit: the nearest entry of the leaf that the nearest children lead to.
+  template <class Found>
+  void dive(Found& found) {
+    alignas(64) std::uint32_t gaps[kWide];
+    const auto nearest = [&](std::uint32_t there) {
+      int best = std::countr_zero(there);
+      for (; there != 0; there &= there - 1)
+        if (const int c = std::countr_zero(there); gaps[c] < gaps[best]) best = c;
+      return static_cast<std::uint32_t>(best);
+    };
+    std::uint32_t node = 0;
+    for (int level = static_cast<int>(index_.levels.size()) - 1; level >= 0; --level) {
+      kernels_.boxGaps(index_.levels[level][node].boxes, features_, bound_, gaps);
+      node = node * kWide + nearest(Data::there(node, index_.childrenAt(level)));
+    }
+    const IndexLeaf& leaf = index_.leaves[node];
+    kernels_.meanGaps(leaf.means, features_, bound_, gaps);
+    kernels_.detailGaps(index_.details[node], features_, bound_, gaps);
+    boxCount_ = 0;
+    const std::uint32_t c = nearest(Data::there(node, index_.entryCount));
+    addBox(leaf.entry[c], gaps[c]);
+    if (index_.side == 1)
+      offer(leaf.entry[c], found);
+    else
+      searchBox(boxes_[0], found);
+  }
+
   template <class T>
   static void prefetch(const T& what) {
     const char* at = reinterpret_cast<const char*>(&what);
@@ -188,7 +214,8 @@ class BlockIndexSearch {
   }
 
   // Leaves are seldom in a cache. So all of a node are asked for first, then their means are looked
-  // at, and the details of those that are left are asked for before the first of them is looked at.
+  // at, and the details of those that are left are asked for before the first of them is looked at;
+  // so it goes on with the boxes that these leave.
   template <class Found>
   void searchLeaves(std::uint32_t first, const int* order, int count, Found& found) {
     struct Left {
@@ -204,74 +231,98 @@ class BlockIndexSearch {
     for (int o = 0; o < count; ++o) {
       Left& here = left[leftCount];
       here.leaf = first + static_cast<std::uint32_t>(order[o]);
-      const IndexLeaf& leaf = index_.leaves[here.leaf];
-      here.within = kernels_.meanGaps(leaf.means, features_, bound_, here.gaps) &
-                    Data::there(here.leaf, index_.entryCount);
+      here.within =
+          kernels_.meanGaps(index_.leaves[here.leaf].means, features_, bound_, here.gaps) &
+          Data::there(here.leaf, index_.entryCount);
       if (here.within == 0) continue;
       prefetch(index_.details[here.leaf]);
+      prefetch(index_.leaves[here.leaf].entry);
       ++leftCount;
     }
+    boxCount_ = 0;
     for (int l = 0; l < leftCount; ++l) {
       Left& here = left[l];
       here.within &= kernels_.detailGaps(index_.details[here.leaf], features_, bound_, here.gaps);
-      if (here.within != 0)
-        searchEntries(index_.leaves[here.leaf].entry, here.within, here.gaps, found);
-    }
-  }
-
-  template <class Found>
-  void searchEntries(const std::uint32_t* entry, std::uint32_t within, const std::uint32_t* gaps,
-                     Found& found) {
-    int order[kWide], count = 0;
-    for (; within != 0; within &= within - 1) {
-      const int c = std::countr_zero(within);
-      if (!found.hopeless(entry[c])) insert(gaps, order, count, c);
-    }
-    for (int o = 0; o < count; ++o) {
-      if (gaps[order[o]] > bound_) return;
-      if (index_.side == 1)
-        offer(entry[order[o]], found);
-      else
-        searchBox(entry[order[o]], found);
-    }
-  }
-
-  template <class Found>
-  void searchBox(std::uint32_t entry, Found& found) {
-    ++statistics_.boxes;
-    budget_ -= Work::kBox;
-    const IndexedSource<Sample>& source = index_.sources[index_.sourceOf(entry)];
-    const Vec3i first = source.samples.ijk(entry - source.offset);
-    const Vec3i size = min(source.positions - first, Vec3i{2, 2, 2});
-    const CellLayout& layout = *index_.layout;
-    for (int n = 0; n < cellCount_; ++n) {
-      const int c = cells_[n];
-      for (int p = 0; p < 8; ++p) {
-        // Positions that do not exist repeat one that does.
-        const Vec3i at =
-            first + layout.first[c] + min(Vec3i{p & 1, p >> 1 & 1, p >> 2}, size - Vec3i{1, 1, 1});
-        std::memcpy(buffer_.value[c][p], source.differences[at].data(), kFeatures);
-        std::memcpy(buffer_.center[c][p], source.centers(at.x / 2, at.y / 2, at.z / 2).data(),
-                    sizeof(Numbers));
+      const std::uint32_t* entry = index_.leaves[here.leaf].entry;
+      for (; here.within != 0; here.within &= here.within - 1) {
+        const int c = std::countr_zero(here.within);
+        if (!found.hopeless(entry[c])) addBox(entry[c], here.gaps[c]);
       }
     }
-    buffer_.shift = index_.differenceShift;
-    buffer_.width =
-        static_cast<std::int16_t>((1 << index_.differenceShift) / 2 + index_.features->margin());
-    std::uint32_t gaps[kWide];
-    kernels_.cellGaps(buffer_, features_, cells_, cellCount_, gaps);
-    int order[kWide], count = 0;
-    for (int p = 0; p < 8; ++p) {
-      const Vec3i step{p & 1, p >> 1 & 1, p >> 2};
-      if (gaps[p] <= bound_ && min(step, size - Vec3i{1, 1, 1}) == step)
-        insert(gaps, order, count, p);
+    // The nearest first: each may lower the limit for those behind it.
+    std::uint64_t nearest[kWide * kWide];
+    for (int b = 0; b < boxCount_; ++b)
+      nearest[b] = std::uint64_t{boxes_[b].gap} << 32 | static_cast<std::uint32_t>(b);
+    std::sort(nearest, nearest + boxCount_);
+    for (int n = 0; n < boxCount_ && nearest[n] >> 32 <= bound_; ++n) {
+      const Box& box = boxes_[nearest[n] & 0xffffffff];
+      if (index_.side == 1)
+        offer(box.entry, found);
+      else
+        searchBox(box, found);
     }
+  }
+
+  struct Box {
+    std::uint32_t gap, entry;
+    int source;
+    int x, y, z;  // the first position
+    const kernels::Brick* bricks[8];
+  };
+
+  void addBox(std::uint32_t entry, std::uint32_t gap) {
+    Box& box = boxes_[boxCount_++];
+    box.gap = gap;
+    box.entry = entry;
+    if (index_.side == 1) return;
+    box.source = index_.sourceOf(entry);
+    const IndexedSource<Sample>& source = index_.sources[box.source];
+    const Vec3i first = source.samples.ijk(entry - source.offset);
+    box.x = first.x, box.y = first.y, box.z = first.z;
+    for (int n = 0; n < cellCount_; ++n) {
+      const Vec3i at = first + index_.layout->first[cells_[n]];
+      box.bricks[n] = &source.bricks(at.x / 2, at.y / 2, at.z / 2);
+      prefetch(*box.bricks[n]);
+    }
+  }
+
+  template <class Found>
+  void searchBox(const Box& box, Found& found) {
+    ++statistics_.boxes;
+    budget_ -= Work::kBox;
+    const IndexedSource<Sample>& source = index_.sources[box.source];
+    const Vec3i first{box.x, box.y, box.z};
+    const auto width =
+        static_cast<std::int16_t>((1 << index_.brickShift) / 2 + index_.features->margin());
+    std::uint32_t gaps[8];
+    if (index_.aligned) {
+      kernels_.brickGaps(box.bricks, index_.brickShift, width, features_, cells_, cellCount_, gaps);
+    } else {
+      kernels::BrickNumbers numbers[8];
+      const Vec3i last = source.bricks.size() - Vec3i{1, 1, 1};
+      for (int n = 0; n < cellCount_; ++n)
+        for (int p = 0; p < 8; ++p) {
+          const Vec3i at =
+              first + index_.layout->first[cells_[n]] + Vec3i{p & 1, p >> 1 & 1, p >> 2};
+          const kernels::Brick& brick =
+              source.bricks[min(Vec3i{at.x / 2, at.y / 2, at.z / 2}, last)];
+          const int in = (at.x & 1) | (at.y & 1) << 1 | (at.z & 1) << 2;
+          for (int f = 0; f < kFeatures; ++f)
+            numbers[n].number[p][f] = static_cast<std::int16_t>(
+                brick.center[f] + ((brick.difference[in][f] - 128) << index_.brickShift));
+        }
+      kernels_.numberGaps(numbers, width, features_, cells_, cellCount_, gaps);
+    }
+    int order[8], count = 0;
+    for (int p = 0; p < 8; ++p)
+      if (gaps[p] <= bound_) insert(gaps, order, count, p);
     for (int o = 0; o < count; ++o) {
       const int p = order[o];
       if (gaps[p] > bound_) return;
-      const std::uint32_t position =
-          entry + static_cast<std::uint32_t>(source.samples.index({p & 1, p >> 1 & 1, p >> 2}));
-      if (index_.live[position]) offer(position, found);
+      const Vec3i position = first + Vec3i{p & 1, p >> 1 & 1, p >> 2};
+      if (min(position, source.positions - Vec3i{1, 1, 1}) != position) continue;
+      const auto at = source.offset + static_cast<std::uint32_t>(source.samples.index(position));
+      if (index_.live[at]) offer(at, found);
     }
   }
 
@@ -302,7 +353,8 @@ class BlockIndexSearch {
   const Data& index_;
   const kernels::Kernels& kernels_;
   kernels::QueryFeatures features_;
-  kernels::Cells buffer_;
+  Box boxes_[kWide * kWide];
+  int boxCount_ = 0;
   std::uint8_t cells_[8] = {};
   int cellCount_ = 0;
   std::vector<BlockSum<Sample>> sumStore_;
@@ -479,7 +531,7 @@ std::int64_t BlockIndex<Sample>::bytes() const {
       data_->leaves.size() * sizeof(IndexLeaf) + data_->live.bytes() + data_->allowedBits.bytes();
   for (const auto& level : data_->levels) bytes += level.size() * sizeof(IndexNode);
   for (const IndexedSource<Sample>& source : data_->sources)
-    bytes += source.centers.count() * sizeof(Numbers) + source.differences.count() * kFeatures;
+    bytes += source.bricks.count() * sizeof(kernels::Brick);
   return static_cast<std::int64_t>(bytes);
 }
 

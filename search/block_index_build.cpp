@@ -194,39 +194,31 @@ void BlockIndexData<Sample>::ranges(const CellArrays& cells, std::uint32_t entry
 }
 
 template <class Sample>
-void BlockIndexData<Sample>::packDifferences(IndexedSource<Sample>& source,
-                                             const Array3D<Numbers>& numbers) {
+void BlockIndexData<Sample>::packBricks(IndexedSource<Sample>& source,
+                                        const Array3D<Numbers>& numbers) {
   const Vec3i size = numbers.size();
-  source.centers = Array3D<Numbers>({(size.x + 1) / 2, (size.y + 1) / 2, (size.z + 1) / 2});
-  source.differences = Array3D<std::array<std::uint8_t, kFeatures>>(size);
-  parallelFor(0, static_cast<std::size_t>(source.centers.size().z), 1,
-              [&](std::size_t begin, std::size_t end) {
-                for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
-                  for (int j = 0; j < source.centers.size().y; ++j)
-                    for (int i = 0; i < source.centers.size().x; ++i) {
-                      const Vec3i first{2 * i, 2 * j, 2 * k};
-                      const Vec3i last = min(first + Vec3i{2, 2, 2}, size);
-                      for (int f = 0; f < kFeatures; ++f) {
-                        int low = 32767, high = 0;
-                        for (int z = first.z; z < last.z; ++z)
-                          for (int y = first.y; y < last.y; ++y)
-                            for (int x = first.x; x < last.x; ++x) {
-                              low = std::min<int>(low, numbers(x, y, z)[f]);
-                              high = std::max<int>(high, numbers(x, y, z)[f]);
-                            }
-                        const int center = (low + high) / 2;
-                        source.centers(i, j, k)[f] = static_cast<std::int16_t>(center);
-                        for (int z = first.z; z < last.z; ++z)
-                          for (int y = first.y; y < last.y; ++y)
-                            for (int x = first.x; x < last.x; ++x) {
-                              const int difference = numbers(x, y, z)[f] - center;
-                              const int half = (1 << differenceShift) / 2;
-                              source.differences(x, y, z)[f] = static_cast<std::uint8_t>(std::clamp(
-                                  ((difference + half) >> differenceShift) + 128, 0, 255));
-                            }
-                      }
-                    }
-              });
+  source.bricks = Array3D<kernels::Brick>({(size.x + 1) / 2, (size.y + 1) / 2, (size.z + 1) / 2});
+  const Vec3i last = size - Vec3i{1, 1, 1};
+  const int half = (1 << brickShift) / 2;
+  parallelFor(0, source.bricks.count(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      kernels::Brick& brick = source.bricks.data()[b];
+      const Vec3i first = source.bricks.ijk(b) * 2;
+      for (int f = 0; f < kFeatures; ++f) {
+        int number[8], low = 32767, high = 0;
+        for (int p = 0; p < 8; ++p) {
+          number[p] = numbers[min(first + Vec3i{p & 1, p >> 1 & 1, p >> 2}, last)][f];
+          low = std::min(low, number[p]);
+          high = std::max(high, number[p]);
+        }
+        const int center = (low + high) / 2;
+        brick.center[f] = static_cast<std::int16_t>(center);
+        for (int p = 0; p < 8; ++p)
+          brick.difference[p][f] =
+              static_cast<std::uint8_t>(((number[p] - center + half) >> brickShift) + 128);
+      }
+    }
+  });
 }
 
 // Sorts the entries so that aligned groups of 16^k leaves are nodes, and fills leaves and nodes.
@@ -481,23 +473,25 @@ void BlockIndexData<Sample>::build(const BlockIndexOptions& options) {
   } while (below.size() > 1);
 
   if (side == 2) {
-    // The largest difference from a box's middle decides the step of all.
+    for (int c = 0; c < 8; ++c)
+      for (int axis = 0; axis < 3; ++axis) aligned = aligned && layout->first[c][axis] % 2 == 0;
+    // The largest difference from a brick's middle decides the step of all.
     int largest = 1;
-    for (std::size_t s = 0; s < sources.size(); ++s) {
-      const Array3D<Numbers>& numbers = cells[s][0];
+    for (const auto& ofSource : cells) {
+      const Array3D<Numbers>& numbers = ofSource[0];
       const Vec3i size = numbers.size();
       for (int k = 0; k < size.z; ++k)
         for (int j = 0; j < size.y; ++j)
           for (int i = 0; i < size.x; ++i) {
-            // Against the box's first: twice the distance from the middle at most, and never less
-            // than it.
+            // Against the brick's first number, which is at least as far as the middle from one of
+            // them.
             const Numbers& a = numbers(i & ~1, j & ~1, k & ~1);
             const Numbers& b = numbers(i, j, k);
             for (int f = 0; f < kFeatures; ++f) largest = std::max(largest, std::abs(a[f] - b[f]));
           }
     }
-    while ((largest >> differenceShift) + 2 > 127) ++differenceShift;
-    for (std::size_t s = 0; s < sources.size(); ++s) packDifferences(sources[s], cells[s][0]);
+    while ((largest >> brickShift) + 2 > 127) ++brickShift;
+    for (std::size_t s = 0; s < sources.size(); ++s) packBricks(sources[s], cells[s][0]);
   }
 }
 

@@ -48,11 +48,8 @@ template <class Sample>
 struct IndexedSource {
   Array3D<Sample> samples;
   Vec3i positions{};
-  std::uint32_t offset = 0;  // of its first sample among the samples of all sources
-  // With boxes of side 2, the features of each cell: the middle of those in a 2³ box, and the
-  // differences.
-  Array3D<CellFeatures::Numbers> centers;
-  Array3D<std::array<std::uint8_t, kernels::kFeatures>> differences;
+  std::uint32_t offset = 0;        // of its first sample among the samples of all sources
+  Array3D<kernels::Brick> bricks;  // with boxes of side 2: the features of all cells
 };
 
 template <class Sample>
@@ -64,10 +61,11 @@ struct BlockIndexData {
   std::vector<IndexedSource<Sample>> sources;
   std::optional<CellLayout> layout;
   std::optional<CellFeatures> features;
-  Vec3d slopes;             // largest differences of neighbours along each axis
-  int differenceShift = 0;  // of Source::differences
-  Bits live;                // positions that are in the tree
-  Bits allowedBits;         // positions that may be found, where not all
+  Vec3d slopes;         // largest differences of neighbours along each axis
+  int brickShift = 0;   // of IndexedSource::bricks
+  bool aligned = true;  // all cells of a box of positions lie in one brick each
+  Bits live;            // positions that are in the tree
+  Bits allowedBits;     // positions that may be found, where not all
   bool allAllowed = true;
   std::int64_t positionCount = 0;
   std::size_t entryCount = 0;
@@ -102,8 +100,7 @@ struct BlockIndexData {
   void dropRepeats(IndexedSource<Sample>& source);
   using CellArrays = std::vector<std::array<Array3D<CellFeatures::Numbers>, 8>>;
   CellArrays cellNumbers() const;
-  void packDifferences(IndexedSource<Sample>& source,
-                       const Array3D<CellFeatures::Numbers>& numbers);
+  void packBricks(IndexedSource<Sample>& source, const Array3D<CellFeatures::Numbers>& numbers);
   /// The features' ranges over the live positions of a box, by cell and feature.
   void ranges(const CellArrays& cells, std::uint32_t entry, std::int16_t* low,
               std::int16_t* high) const;

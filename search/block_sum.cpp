@@ -101,31 +101,35 @@ BlockSum<Sample>::BlockSum(const BlockQuery<Sample>& query, const Vec3i& sourceS
   struct Piece {
     std::uint32_t source, query;
     int repeated;  // first samples that the piece before holds already
-    int known;
   };
+  const std::size_t perRow = static_cast<std::size_t>((size.x + piece - 1) / piece);
   std::vector<Piece> whole, partial;
-  whole.reserve(static_cast<std::size_t>(size.y) * size.z * (size.x + piece - 1) / piece);
+  whole.reserve(static_cast<std::size_t>(size.y) * size.z * perRow);
   for (int k = 0; k < size.z; ++k)
-    for (int j = 0; j < size.y; ++j)
+    for (int j = 0; j < size.y; ++j) {
+      const auto sourceRow = static_cast<std::uint32_t>(
+          (static_cast<std::size_t>(k) * sourceSize.y + j) * sourceSize.x);
+      const auto queryRow = static_cast<std::uint32_t>(query.samples.index(0, j, k));
       for (int i = 0; i < size.x; i += piece) {
         // The last piece of a row is moved back to end with the row.
         const int first = std::min(i, size.x - piece);
-        Piece p{static_cast<std::uint32_t>(
-                    (static_cast<std::size_t>(k) * sourceSize.y + j) * sourceSize.x + first),
-                static_cast<std::uint32_t>(query.samples.index(first, j, k)), i - first,
-                piece - (i - first)};
+        const Piece p{sourceRow + static_cast<std::uint32_t>(first),
+                      queryRow + static_cast<std::uint32_t>(first), i - first};
+        int known = piece - p.repeated;
         if (!all) {
-          const std::uint8_t* known = query.known.data() + p.query;
-          p.known = 0;
-          for (int l = p.repeated; l < piece; ++l) p.known += known[l] != 0;
+          known = 0;
+          const std::uint8_t* mask = query.known.data() + p.query;
+          for (int l = p.repeated; l < piece; ++l) known += mask[l] != 0;
         }
-        if (p.known == piece)
+        if (known == piece)
           whole.push_back(p);
-        else if (p.known > 0)
+        else if (known > 0)
           partial.push_back(p);
       }
+    }
 
-  const std::size_t perChunk = static_cast<std::size_t>(kLanes / piece);
+  const std::size_t width = static_cast<std::size_t>(piece);
+  const std::size_t perChunk = static_cast<std::size_t>(kLanes) / width;
   const std::size_t pieces = whole.size() + partial.size();
   chunks_.piece = piece;
   chunks_.count = (pieces + perChunk - 1) / perChunk;
@@ -133,26 +137,42 @@ BlockSum<Sample>::BlockSum(const BlockQuery<Sample>& query, const Vec3i& sourceS
   chunks_.source.assign(chunks_.count * perChunk, 0);
   chunks_.value.assign(chunks_.count * kLanes, Value{0});
   chunks_.mask.assign(chunks_.count * kLanes, Value{0});
-  std::size_t slot = 0;
-  for (const std::vector<Piece>* list : {&whole, &partial}) {
-    // Steps of about the golden ratio visit the block evenly from the start on.
-    const std::size_t n = list->size();
+  constexpr Value kKnown = kLevels ? Value{-1} : Value{1};
+  // Steps of about the golden ratio visit the block evenly from the start on.
+  const auto evenly = [](const std::vector<Piece>& list, const auto& visit) {
+    const std::size_t n = list.size();
     std::size_t step = static_cast<std::size_t>(0.618 * static_cast<double>(n)) | 1;
     while (n > 1 && std::gcd(step, n) != 1) ++step;
-    for (std::size_t i = 0, at = 0; i < n; ++i, at = (at + step) % n, ++slot) {
-      const Piece& p = (*list)[at];
-      chunks_.source[slot] = p.source;
-      Value* value = chunks_.value.data() + slot * static_cast<std::size_t>(piece);
-      Value* mask = chunks_.mask.data() + slot * static_cast<std::size_t>(piece);
-      const Sample* samples = query.samples.data() + p.query;
-      const std::uint8_t* known = all ? nullptr : query.known.data() + p.query;
-      for (int l = p.repeated; l < piece; ++l) {
-        if (known && known[l] == 0) continue;
-        value[l] = static_cast<Value>(samples[l]);
-        mask[l] = kLevels ? static_cast<Value>(-1) : static_cast<Value>(1);
-      }
+    for (std::size_t i = 0, at = 0; i < n; ++i) {
+      visit(list[at]);
+      at += step;
+      if (at >= n) at -= n;
     }
-  }
+  };
+  std::size_t slot = 0;
+  evenly(whole, [&](const Piece& p) {
+    chunks_.source[slot] = p.source;
+    Value* value = chunks_.value.data() + slot * width;
+    Value* mask = chunks_.mask.data() + slot * width;
+    const Sample* samples = query.samples.data() + p.query;
+    for (std::size_t l = 0; l < width; ++l) value[l] = static_cast<Value>(samples[l]);
+    // Levels look at no mask in whole chunks.
+    if (!kLevels || slot / perChunk >= chunks_.whole) std::fill_n(mask, width, kKnown);
+    ++slot;
+  });
+  evenly(partial, [&](const Piece& p) {
+    chunks_.source[slot] = p.source;
+    Value* value = chunks_.value.data() + slot * width;
+    Value* mask = chunks_.mask.data() + slot * width;
+    const Sample* samples = query.samples.data() + p.query;
+    const std::uint8_t* known = all ? nullptr : query.known.data() + p.query;
+    for (std::size_t l = static_cast<std::size_t>(p.repeated); l < width; ++l) {
+      const bool there = !known || known[l] != 0;
+      value[l] = there ? static_cast<Value>(samples[l]) : Value{0};
+      mask[l] = there ? kKnown : Value{0};
+    }
+    ++slot;
+  });
 }
 
 template <class Sample>

@@ -102,8 +102,11 @@ CellFeatures::CellFeatures(const CellLayout& layout,
   double largest = 1;
   for (int c = 0; c < 8; ++c)
     if (layout.there(c)) {
-      for (int axis = 0; axis < 3; ++axis)
+      for (int axis = 0; axis < 3; ++axis) {
         polynomials_[c][axis] = orthonormalPolynomials(layout.size[c][axis], kDegrees);
+        for (const std::vector<double>& p : polynomials_[c][axis])
+          weights_[c][axis].emplace_back(p.begin(), p.end());
+      }
       largest = std::max(largest, static_cast<double>(volume(layout.size[c])));
       margin_ = std::max(margin_, static_cast<int>(std::ceil(0.5 + roundingError(layout.size[c]))));
     }
@@ -225,97 +228,154 @@ Array3D<CellFeatures::Numbers> CellFeatures::ofSource(const Array3D<Sample>& sou
   return numbers;
 }
 
+namespace {
+
+// Sums of whole rows, weighted along y and z, for the cells of one part of y and z: `sums[f]` is a
+// row. For feature f the weights are `alongY[f][j] * alongZ[f][k]`; features that agree along y
+// follow each other.
+template <class Sample>
+inline __attribute__((always_inline)) void sumRows(const Sample* samples, std::size_t strideY,
+                                                   std::size_t strideZ, std::size_t length,
+                                                   int rows, int slices, float middle,
+                                                   const float* const* alongY,
+                                                   const float* const* alongZ, int features,
+                                                   float* row, float* plane, float* sums) {
+  for (int k = 0; k < slices; ++k) {
+    for (std::size_t i = 0; i < length * static_cast<std::size_t>(features); ++i) plane[i] = 0;
+    for (int j = 0; j < rows; ++j) {
+      const Sample* in =
+          samples + static_cast<std::size_t>(k) * strideZ + static_cast<std::size_t>(j) * strideY;
+      for (std::size_t i = 0; i < length; ++i) row[i] = static_cast<float>(in[i]) - middle;
+      for (int f = 0; f < features; ++f) {
+        if (f > 0 && alongY[f] == alongY[f - 1]) continue;
+        const float w = alongY[f][j];
+        float* out = plane + static_cast<std::size_t>(f) * length;
+        for (std::size_t i = 0; i < length; ++i) out[i] += w * row[i];
+      }
+    }
+    const float* in = plane;
+    for (int f = 0; f < features; ++f) {
+      if (f == 0 || alongY[f] != alongY[f - 1]) in = plane + static_cast<std::size_t>(f) * length;
+      const float w = alongZ[f][k];
+      float* out = sums + static_cast<std::size_t>(f) * length;
+      for (std::size_t i = 0; i < length; ++i) out[i] += w * in[i];
+    }
+  }
+}
+
+EXEMPLAR_MULTIVERSION void sumRowsOf(const std::uint8_t* samples, std::size_t strideY,
+                                     std::size_t strideZ, std::size_t length, int rows, int slices,
+                                     float middle, const float* const* alongY,
+                                     const float* const* alongZ, int features, float* row,
+                                     float* plane, float* sums) {
+  sumRows(samples, strideY, strideZ, length, rows, slices, middle, alongY, alongZ, features, row,
+          plane, sums);
+}
+
+EXEMPLAR_MULTIVERSION void sumRowsOf(const float* samples, std::size_t strideY, std::size_t strideZ,
+                                     std::size_t length, int rows, int slices, float middle,
+                                     const float* const* alongY, const float* const* alongZ,
+                                     int features, float* row, float* plane, float* sums) {
+  sumRows(samples, strideY, strideZ, length, rows, slices, middle, alongY, alongZ, features, row,
+          plane, sums);
+}
+
+std::int64_t knownIn(const Array3D<std::uint8_t>& known, const Vec3i& first, const Vec3i& size) {
+  std::int64_t count = 0;
+  for (int k = 0; k < size.z; ++k)
+    for (int j = 0; j < size.y; ++j) {
+      const std::uint8_t* at = known.data() + known.index(first.x, first.y + j, first.z + k);
+      int inRow = 0;
+      for (int i = 0; i < size.x; ++i) inRow += at[i] != 0;
+      count += inRow;
+    }
+  return count;
+}
+
+}  // namespace
+
 template <class Sample>
 kernels::QueryFeatures CellFeatures::ofQuery(const BlockQuery<Sample>& query,
                                              const Vec3d& slopes) const {
   kernels::QueryFeatures features;
+  std::ranges::fill(features.meanLow, std::int16_t{0});
+  std::ranges::fill(features.meanHigh, std::int16_t{32767});
+  std::ranges::fill(features.meanWeight, std::uint16_t{65535});
+  std::ranges::fill(features.detailLow, std::int16_t{0});
+  std::ranges::fill(features.detailHigh, std::int16_t{32767});
   features.weighted = false;
   features.detailPairs = 0;
+
   const Vec3i block = query.samples.size();
-  std::vector<float> row(static_cast<std::size_t>(block.x));
+  std::int64_t known[8] = {};
   for (int c = 0; c < 8; ++c) {
-    features.meanLow[c] = 0;
-    features.meanHigh[c] = 32767;
-    features.meanWeight[c] = 65535;
-    for (int f = 0; f < kCount - 1; ++f) {
-      features.detailLow[kernels::detail(c, f)] = 0;
-      features.detailHigh[kernels::detail(c, f)] = 32767;
-    }
     if (!layout_.there(c)) continue;
     const Vec3i first = layout_.first[c], size = layout_.size[c];
-    const auto samples = volume(size);
-    std::int64_t known = samples;
-    if (!query.known.empty()) {
-      known = 0;
-      for (int k = 0; k < size.z; ++k)
-        for (int j = 0; j < size.y; ++j) {
-          const std::uint8_t* at =
-              query.known.data() + query.known.index(first.x, first.y + j, first.z + k);
-          int inRow = 0;
-          for (int i = 0; i < size.x; ++i) inRow += at[i] != 0;
-          known += inRow;
-        }
-    }
-    if (known == 0) continue;
-
-    if (known < samples) {
-      // Only the mean, and as far as the known samples say something about it.
-      double sum = 0;
-      for (int k = 0; k < size.z; ++k)
-        for (int j = 0; j < size.y; ++j) {
-          const std::size_t at = query.known.index(first.x, first.y + j, first.z + k);
-          for (int i = 0; i < size.x; ++i)
-            if (query.known.data()[at + i])
-              sum += static_cast<double>(query.samples.data()[at + i]);
-        }
-      const double mean = sum / static_cast<double>(known) - middle_;
-      const double shift = meanShift(query.known, first, size, slopes);
-      const double unit = std::sqrt(static_cast<double>(samples)) * scale_;
-      features.meanLow[c] = number(std::floor((mean - shift) * unit - 0.01) + kHalf);
-      features.meanHigh[c] = number(std::ceil((mean + shift) * unit + 0.01) + kHalf);
-      features.meanWeight[c] = static_cast<std::uint16_t>(
-          std::floor(65535 * std::sqrt(static_cast<double>(known) / static_cast<double>(samples))));
-      features.weighted = true;
-      continue;
-    }
-
-    const Polynomials& polynomials = polynomials_[c];
-    // Sums over y, then over z, of whole rows; x comes last.
-    std::vector<float> alongY(static_cast<std::size_t>(size.x) * kDegrees);
-    std::vector<float> alongYZ(static_cast<std::size_t>(size.x) * kCount, 0.0f);
-    bool degreeUsed[kDegrees] = {};
-    for (int f = 0; f < kCount; ++f)
-      if (there(c, f)) degreeUsed[degrees_[f].y] = true;
-    for (int k = 0; k < size.z; ++k) {
-      std::ranges::fill(alongY, 0.0f);
+    const std::int64_t samples = volume(size);
+    known[c] = query.known.empty() ? samples : knownIn(query.known, first, size);
+    if (known[c] == 0 || known[c] == samples) continue;
+    // Only the mean, and as far as the known samples say something about it.
+    double sum = 0;
+    for (int k = 0; k < size.z; ++k)
       for (int j = 0; j < size.y; ++j) {
-        centered(query.samples.data() + query.samples.index(first.x, first.y + j, first.z + k),
-                 static_cast<float>(middle_), row.data(), static_cast<std::size_t>(size.x));
-        for (int d = 0; d < kDegrees; ++d)
-          if (degreeUsed[d])
-            addScaled(row.data(), static_cast<float>(polynomials[1][d][j]),
-                      alongY.data() + static_cast<std::size_t>(d) * size.x,
-                      static_cast<std::size_t>(size.x));
+        const std::size_t at = query.known.index(first.x, first.y + j, first.z + k);
+        for (int i = 0; i < size.x; ++i)
+          if (query.known.data()[at + i]) sum += static_cast<double>(query.samples.data()[at + i]);
       }
-      for (int f = 0; f < kCount; ++f)
-        if (there(c, f))
-          addScaled(alongY.data() + static_cast<std::size_t>(degrees_[f].y) * size.x,
-                    static_cast<float>(polynomials[2][degrees_[f].z][k]),
-                    alongYZ.data() + static_cast<std::size_t>(f) * size.x,
-                    static_cast<std::size_t>(size.x));
-    }
-    const double error = roundingError(size);
-    for (int f = 0; f < kCount; ++f) {
-      if (!there(c, f)) continue;
-      double coefficient = 0;
-      for (int i = 0; i < size.x; ++i)
-        coefficient += double{alongYZ[static_cast<std::size_t>(f) * size.x + i]} *
-                       polynomials[0][degrees_[f].x][i];
-      coefficient *= scale_;
-      const std::int16_t low = number(std::floor(coefficient - error) + kHalf);
-      const std::int16_t high = number(std::ceil(coefficient + error) + kHalf);
-      (f == 0 ? features.meanLow[c] : features.detailLow[kernels::detail(c, f - 1)]) = low;
-      (f == 0 ? features.meanHigh[c] : features.detailHigh[kernels::detail(c, f - 1)]) = high;
+    const double mean = sum / static_cast<double>(known[c]) - middle_;
+    const double shift = meanShift(query.known, first, size, slopes);
+    const double unit = std::sqrt(static_cast<double>(samples)) * scale_;
+    features.meanLow[c] = number(std::floor((mean - shift) * unit - 0.01) + kHalf);
+    features.meanHigh[c] = number(std::ceil((mean + shift) * unit + 0.01) + kHalf);
+    features.meanWeight[c] = static_cast<std::uint16_t>(std::floor(
+        65535 * std::sqrt(static_cast<double>(known[c]) / static_cast<double>(samples))));
+    features.weighted = true;
+  }
+
+  // Cells known in full, two at a time: those that differ in x alone have their rows in common.
+  const std::size_t length = static_cast<std::size_t>(block.x);
+  std::vector<float> buffer(length * (2 * kCount + 1));
+  float* const row = buffer.data();
+  float* const plane = row + length;
+  float* const sums = plane + length * kCount;
+  for (int c = 0; c < 8; c += 2) {
+    const auto full = [&](int cell) {
+      return layout_.there(cell) && known[cell] == volume(layout_.size[cell]);
+    };
+    if (!full(c) && !full(c + 1)) continue;
+    const Vec3i first = layout_.first[c], size = layout_.size[c];
+    const float* alongY[kCount];
+    const float* alongZ[kCount];
+    int which[kCount], count = 0;
+    for (int y = 0; y < kDegrees; ++y)
+      for (int f = 0; f < kCount; ++f) {
+        const Vec3i d = degrees_[f];
+        if (d.x < 0 || d.y != y || d.y >= size.y || d.z >= size.z) continue;
+        which[count] = f;
+        alongY[count] = weights_[c][1][d.y].data();
+        alongZ[count++] = weights_[c][2][d.z].data();
+      }
+    std::fill_n(sums, length * static_cast<std::size_t>(count), 0.0f);
+    sumRowsOf(query.samples.data() + query.samples.index(0, first.y, first.z), length,
+              length * static_cast<std::size_t>(block.y), length, size.y, size.z,
+              static_cast<float>(middle_), alongY, alongZ, count, row, plane, sums);
+    for (int cell = c; cell < c + 2; ++cell) {
+      if (!full(cell)) continue;
+      const double error = roundingError(layout_.size[cell]);
+      for (int n = 0; n < count; ++n) {
+        const int f = which[n];
+        if (!there(cell, f)) continue;
+        const std::vector<double>& alongX = polynomials_[cell][0][degrees_[f].x];
+        const float* in = sums + static_cast<std::size_t>(n) * length + layout_.first[cell].x;
+        double coefficient = 0;
+        for (std::size_t i = 0; i < alongX.size(); ++i) coefficient += in[i] * alongX[i];
+        coefficient *= scale_;
+        const std::int16_t low = number(std::floor(coefficient - error) + kHalf);
+        const std::int16_t high = number(std::ceil(coefficient + error) + kHalf);
+        (f == 0 ? features.meanLow[cell] : features.detailLow[kernels::detail(cell, f - 1)]) = low;
+        (f == 0 ? features.meanHigh[cell] : features.detailHigh[kernels::detail(cell, f - 1)]) =
+            high;
+      }
     }
   }
   for (int p = 0; p < kernels::kDetails / 2; ++p) {

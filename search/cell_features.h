@@ -64,7 +64,8 @@ class CellFeatures {
   std::int16_t number(double coefficient) const;
 
   CellLayout layout_;
-  std::array<Polynomials, 8> polynomials_;  // of each cell
+  std::array<Polynomials, 8> polynomials_;                                 // of each cell
+  std::array<std::array<std::vector<std::vector<float>>, 3>, 8> weights_;  // the same, rounded
   std::array<Vec3i, kCount> degrees_{};
   double middle_ = 0, scale_ = 1;
   int margin_ = 1;

@@ -58,13 +58,17 @@ struct Points {
 using MeanPoints = Points<kMeans>;
 using DetailPoints = Points<kDetails>;
 
-/// Features of the cells at eight positions, for each of up to eight cells of a block:
-/// `center + ((value - 128) << shift)`, plus or minus `width`.
-struct Cells {
-  alignas(64) std::uint8_t value[8][8][kFeatures];  ///< [cell][position][feature]
-  alignas(64) std::int16_t center[8][8][kFeatures];
-  int shift;
-  std::int16_t width;
+/// Features of the cells at the eight positions of a box of side 2, x first:
+/// `center + ((difference - 128) << shift)`, plus or minus half a step and the features' own
+/// margin.
+struct Brick {
+  std::int16_t center[kFeatures];
+  std::uint8_t difference[8][kFeatures];
+};
+
+/// The same, spelt out.
+struct BrickNumbers {
+  alignas(64) std::int16_t number[8][kFeatures];
 };
 
 /// A vector of known samples, gathered from pieces of rows (see `BlockSum`).
@@ -88,9 +92,12 @@ struct Kernels {
   /// Adds to the sums of `meanGaps`.
   std::uint32_t (*detailGaps)(const DetailPoints&, const QueryFeatures&, std::uint32_t bound,
                               std::uint32_t* sums);
-  /// The same for the blocks at eight positions, of whose cells those in `cells` count.
-  void (*cellGaps)(const Cells&, const QueryFeatures&, const std::uint8_t* cells, int cellCount,
-                   std::uint32_t* sums);
+  /// The same for the blocks at the eight positions of a box. For the i-th of `count` cells, which
+  /// is number `cells[i]` of a block, `bricks[i]` holds the features, each off by at most `width`.
+  void (*brickGaps)(const Brick* const* bricks, int shift, std::int16_t width, const QueryFeatures&,
+                    const std::uint8_t* cells, int count, std::uint32_t* sums);
+  void (*numberGaps)(const BrickNumbers* bricks, std::int16_t width, const QueryFeatures&,
+                     const std::uint8_t* cells, int count, std::uint32_t* sums);
   /// As `BlockSum::firstWithin`, for levels.
   std::size_t (*scan)(const SumChunks&, const std::uint8_t* block, std::size_t count,
                       std::int64_t limit, std::int64_t& found);

@@ -342,31 +342,52 @@ std::uint32_t detailGaps(const DetailPoints& points, const QueryFeatures& q, std
   return finish(sum, bound, sums);
 }
 
-void cellGaps(const Cells& cells, const QueryFeatures& q, const std::uint8_t* which, int count,
-              std::uint32_t* sums) {
-  V sum[kVectors];
-  for (int v = 0; v < kVectors; ++v) sum[v] = zero();
-  const V width = same(cells.width), middle = same(128);
-  for (int i = 0; i < count; ++i) {
-    const int c = which[i];
-    const std::int16_t lows[4] = {q.meanLow[c], q.detailLow[detail(c, 0)],
-                                  q.detailLow[detail(c, 1)], q.detailLow[detail(c, 2)]};
-    const std::int16_t highs[4] = {q.meanHigh[c], q.detailHigh[detail(c, 0)],
-                                   q.detailHigh[detail(c, 1)], q.detailHigh[detail(c, 2)]};
-    const std::uint16_t weights[4] = {q.meanWeight[c], 65535, 65535, 65535};
-    const V queryLow = subtract(quad(lows), width), queryHigh = add(quad(highs), width);
-    for (int v = 0; v < kVectors; ++v) {
-      const V value =
-          add(load(&cells.center[c][0][0] + v * kLanes),
-              shifted(subtract(widen(&cells.value[c][0][0] + v * kLanes), middle), cells.shift));
-      V g = gap(value, value, queryLow, queryHigh);
-      if (q.weighted) g = scaled(g, quad(weights));
-      sum[v] = add32(sum[v], squares(g));
-    }
+// Adds the gaps of one cell, whose numbers are `value(v)` in vector v, to the sums.
+template <class Value>
+inline void addCell(const QueryFeatures& q, int c, V width, V* sum, const Value& value) {
+  const std::int16_t lows[4] = {q.meanLow[c], q.detailLow[detail(c, 0)], q.detailLow[detail(c, 1)],
+                                q.detailLow[detail(c, 2)]};
+  const std::int16_t highs[4] = {q.meanHigh[c], q.detailHigh[detail(c, 0)],
+                                 q.detailHigh[detail(c, 1)], q.detailHigh[detail(c, 2)]};
+  const std::uint16_t weights[4] = {q.meanWeight[c], 65535, 65535, 65535};
+  const V queryLow = subtract(quad(lows), width), queryHigh = add(quad(highs), width);
+  for (int v = 0; v < kVectors; ++v) {
+    const V number = value(v);
+    V g = gap(number, number, queryLow, queryHigh);
+    if (q.weighted) g = scaled(g, quad(weights));
+    sum[v] = add32(sum[v], squares(g));
   }
+}
+
+inline void finishBricks(const V* sum, std::uint32_t* sums) {
   std::uint32_t halves[kWide];
   for (int v = 0; v < kVectors; ++v) store(halves + v * kLanes / 2, sum[v]);
   for (int p = 0; p < 8; ++p) sums[p] = halves[2 * p] + halves[2 * p + 1];
+}
+
+void brickGaps(const Brick* const* bricks, int shift, std::int16_t width, const QueryFeatures& q,
+               const std::uint8_t* cells, int count, std::uint32_t* sums) {
+  V sum[kVectors];
+  for (int v = 0; v < kVectors; ++v) sum[v] = zero();
+  const V middle = same(128);
+  for (int i = 0; i < count; ++i) {
+    const V center = quad(bricks[i]->center);
+    addCell(q, cells[i], same(width), sum, [&](int v) {
+      return add(center, shifted(subtract(widen(&bricks[i]->difference[0][0] + v * kLanes), middle),
+                                 shift));
+    });
+  }
+  finishBricks(sum, sums);
+}
+
+void numberGaps(const BrickNumbers* bricks, std::int16_t width, const QueryFeatures& q,
+                const std::uint8_t* cells, int count, std::uint32_t* sums) {
+  V sum[kVectors];
+  for (int v = 0; v < kVectors; ++v) sum[v] = zero();
+  for (int i = 0; i < count; ++i)
+    addCell(q, cells[i], same(width), sum,
+            [&](int v) { return load(&bricks[i].number[0][0] + v * kLanes); });
+  finishBricks(sum, sums);
 }
 
 template <int piece>
@@ -450,7 +471,8 @@ std::size_t scan(const SumChunks& chunks, const std::uint8_t* block, std::size_t
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels{EXEMPLAR_KERNELS_NAME, boxGaps, meanGaps, detailGaps, cellGaps, scan};
+const Kernels kKernels{
+    EXEMPLAR_KERNELS_NAME, boxGaps, meanGaps, detailGaps, brickGaps, numberGaps, scan};
 
 }  // namespace EXEMPLAR_KERNELS
 }  // namespace exemplar::kernels
