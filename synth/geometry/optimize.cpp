@@ -201,8 +201,9 @@ Array3D<float> welcome(const Level& level, const Array3D<float>& target, double 
   reverse = nearestNeighborField({target}, {level.source}, search, progress);
   Array3D<float> weight(level.source.size(), 1.0f);
   for (std::size_t s = 0; s < reverse.distance.count(); ++s) {
+    // Times alpha, which changes nothing, so that it stays a number for any alpha.
     weight[reverse.distance.ijk(s)] =
-        1.0f / (static_cast<float>(alpha) + reverse.distance.values()[s]);
+        static_cast<float>(std::max(1e-6, 1 / (1 + reverse.distance.values()[s] / alpha)));
   }
   return weight;
 }
@@ -327,7 +328,7 @@ void check(const DistanceField& example, const OptimizeOptions& options) {
     fail("rounds " + std::to_string(options.rounds) + ": expected 1 to 100");
   if (!(options.truncation > 0)) fail("truncation must be above 0");
   if (!(options.completeness > 0)) fail("completeness must be above 0");
-  requireMemory(150.0 * static_cast<double>(volume(options.size)), "a result of this size",
+  requireMemory(120.0 * static_cast<double>(volume(options.size)), "a result of this size",
                 "use a lower resolution or a smaller scale");
 }
 

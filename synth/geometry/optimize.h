@@ -42,7 +42,7 @@ struct OptimizeOptions {
 /// Sides of the example's box that lie wholly outside the solid (a free-standing object with air
 /// around it) stay outside in the result; elsewhere the result is a window into something larger.
 ///
-/// Cost: O(samples of the result x patch^3 x rounds) for each level's PatchMatch; memory about 150
+/// Cost: O(samples of the result x patch^3 x rounds) for each level's PatchMatch; memory about 120
 /// bytes a sample of the result. The same bytes at any number of threads. Throws `InputError` for
 /// options out of range.
 SynthesisResult synthesizeOptimized(const DistanceField& example, const OptimizeOptions& options,

@@ -97,6 +97,15 @@ TEST(Optimize, BallsStayWhole) {
   EXPECT_EQ(dropBrokenPieces(example, result.origins), 0);
 }
 
+TEST(Optimize, AnyCompletenessAboveZeroIsTaken) {
+  const DistanceField example = balls({16, 16, 16}, 4, 1);
+  for (const double completeness : {1e-300, 1e-3, 1e3, 1e300}) {
+    OptimizeOptions options = sized({16, 16, 16});
+    options.completeness = completeness;
+    EXPECT_EQ(samplesWrong(example, synthesizeOptimized(example, options)), 0);
+  }
+}
+
 TEST(Optimize, SidesInAirStayInAir) {
   // One ball with air all around, made twice as long: nothing solid may touch the box.
   DistanceField example = constant({24, 24, 24}, 0);
