@@ -62,20 +62,25 @@ std::vector<T> gather(std::size_t count, const Work& work) {
 }
 
 Overlaps findOverlaps(const TriangleSoup& soup, const TriangleTree& tree) {
-  const auto sharesEdge = [&](std::uint32_t a, std::uint32_t b) {
+  const auto sharedCorners = [&](std::uint32_t a, std::uint32_t b) {
     int shared = 0;
     for (const std::uint32_t p : soup.triangles[a])
       for (const std::uint32_t q : soup.triangles[b]) shared += p == q;
-    return shared >= 2;
+    return shared;
   };
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
   const auto pairs =
       gather<Pair>(soup.triangles.size(), [&](std::uint32_t t, std::vector<Pair>& out) {
-        const Corners corners = tree.triangle(t);
+        const Corners& corners = tree.triangle(t);
         const Extent box = extentOf(corners);
         tree.visitBox(box.low, box.high, [&](std::uint32_t u) {
-          if (u > t && !sharesEdge(t, u) && trianglesOverlap(corners, tree.triangle(u)))
+          if (u <= t) return;
+          const int shared = sharedCorners(t, u);
+          const Corners& other = tree.triangle(u);
+          if (shared == 0 ? trianglesMeet(corners, other)
+                          : shared == 1 && trianglesOverlap(corners, other)) {
             out.push_back({t, u});
+          }
         });
       });
   Overlaps result;
@@ -148,7 +153,7 @@ class Sorter {
     bool uniform = longestEdge(t) <= kPiece + kPiecePerVoxel * distance;
     if (!uniform) {
       for (const std::uint32_t u : others)
-        if (trianglesOverlap(t, tree_.triangle(u))) crossing.push_back(u);
+        if (trianglesMeet(t, tree_.triangle(u))) crossing.push_back(u);
       uniform = crossing.empty() && (closed_ || sameAtCorners(t, middle));
     }
     if (uniform) {

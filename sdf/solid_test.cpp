@@ -53,9 +53,9 @@ bool isFlat(const Part& part) {
 
 struct SolidTest::Parts {
   TriangleTree closed{{}};         // all closed components
-  TriangleTree open{{}};           // all open ones, where there are several
-  std::vector<TriangleTree> each;  // the open ones that are not flat
-  TriangleTree boxes{{}};          // their boxes: each as a triangle between two corners
+  TriangleTree flat{{}};           // all flat ones
+  std::vector<TriangleTree> open;  // the others
+  TriangleTree boxes{{}};          // their boxes, each as a triangle between two of its corners
 };
 
 SolidTest::SolidTest(const TriangleSoup& soup) : parts_(std::make_unique<Parts>()) {
@@ -74,18 +74,18 @@ SolidTest::SolidTest(const TriangleSoup& soup) : parts_(std::make_unique<Parts>(
   parts_->closed = TriangleTree(std::move(closed));
   std::erase_if(open, [](const Part& part) { return part.triangles.empty(); });
 
-  std::vector<Corners> all, boxes;
+  std::vector<Corners> flat, boxes;
   for (Part& part : open) {
+    if (isFlat(part)) {
+      flat.insert(flat.end(), part.triangles.begin(), part.triangles.end());
+      continue;
+    }
     if (enclosedVolume(part) < 0)
       for (Corners& t : part.triangles) std::swap(t[1], t[2]);
-    if (open.size() > 1) all.insert(all.end(), part.triangles.begin(), part.triangles.end());
-  }
-  parts_->open = TriangleTree(std::move(all));
-  std::erase_if(open, isFlat);
-  for (Part& part : open) {
     boxes.push_back({part.box.min, part.box.max, part.box.min});
-    parts_->each.emplace_back(std::move(part.triangles));
+    parts_->open.emplace_back(std::move(part.triangles));
   }
+  parts_->flat = TriangleTree(std::move(flat));
   parts_->boxes = TriangleTree(std::move(boxes));
 }
 
@@ -97,19 +97,19 @@ void SolidTest::inside(std::span<const Vec3d> points, std::span<std::uint8_t> re
     const auto some = points.subspan(begin, std::min(winding.size(), points.size() - begin));
     std::uint8_t* in = result.data() + begin;
     std::fill_n(in, some.size(), std::uint8_t{0});
-    const auto ask = [&](const TriangleTree& tree, bool anyWay) {
+    const auto ask = [&](const TriangleTree& tree, bool eitherWay) {
       tree.windingNumbers(some, {winding.data(), some.size()});
       for (std::size_t p = 0; p < some.size(); ++p)
-        in[p] |= (anyWay ? std::abs(winding[p]) : winding[p]) > 0.5;
+        in[p] |= (eitherWay ? std::abs(winding[p]) : winding[p]) > 0.5;
     };
     if (parts_->closed.count() > 0) ask(parts_->closed, true);
-    if (parts_->open.count() > 0) ask(parts_->open, false);
-    if (parts_->each.empty()) continue;
+    if (parts_->flat.count() > 0) ask(parts_->flat, true);
+    if (parts_->open.empty()) continue;
     // Outside its convex hull no component winds around a point by more than 1/2.
     Box3d box;
     for (const Vec3d& p : some) box.add(p);
     parts_->boxes.visitBox(box.min, box.max,
-                           [&](std::uint32_t part) { ask(parts_->each[part], false); });
+                           [&](std::uint32_t part) { ask(parts_->open[part], false); });
   }
 }
 

@@ -16,12 +16,12 @@ namespace exemplar {
 ///
 /// A point is inside where the winding number of all closed components together is more than 1/2 in
 /// size: overlapping solids are one solid, solids that are turned inside out are solids, and a
-/// hollow whose walls face it is outside. It is inside, too, where the winding number of one open
-/// component alone, or of all open components together, is more than 1/2: the surface on which it
-/// is 1/2 closes the opening. One by one, because beside an open component the winding number is
-/// negative, so that in the sum a stone without a bottom would dig a ditch into the floor on which
-/// it stands; together, because parts that were never joined may enclose a solid only together.
-/// Open components that are turned inside out are turned back first. Flat ones enclose nothing.
+/// hollow whose walls face it is outside. It is inside, too, where the winding number of an open
+/// component is more than 1/2: the surface on which it is 1/2 closes the opening. Open components
+/// count one by one, because each winds around points outside it, too, down to -1/2 and up to 1/2
+/// before its opening: in the sum of all, a stone without a bottom would dig a ditch into the floor
+/// it stands in, and bulge out below. Those that are turned inside out are turned back first. Flat
+/// ones, which enclose nothing alone, count together.
 class SolidTest {
  public:
   explicit SolidTest(const TriangleSoup& soup);

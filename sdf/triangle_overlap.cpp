@@ -18,12 +18,10 @@ Interval along(const Vec3d& axis, const Corners& t) {
   return {std::min({p, q, r}), std::max({p, q, r})};
 }
 
-}  // namespace
-
 // Two convex sets are apart exactly if a normal of one or a cross product of two edges separates
 // them (Gottschalk, Lin, Manocha: "OBBTree", SIGGRAPH 1996); for triangles in one plane, a normal
 // of an edge within it.
-bool trianglesOverlap(const Corners& a, const Corners& b) {
+bool meet(const Corners& a, const Corners& b, bool touching) {
   // Relative to a corner, so that large coordinates cost no digits.
   const Vec3d base = a[0];
   const Corners p{a[0] - base, a[1] - base, a[2] - base}, q{b[0] - base, b[1] - base, b[2] - base};
@@ -33,7 +31,8 @@ bool trianglesOverlap(const Corners& a, const Corners& b) {
   for (const Corners* t : {&p, &q})
     for (const Vec3d& c : *t) size = std::max({size, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
   const double slack = 1e-9 * size;
-  // On a face's own normal touching counts as meeting, on the others as separation.
+  // On a face's own normal touching always counts, or triangles in one plane would never meet.
+  const double rim = touching ? slack : -slack;
   const auto separates = [&](Vec3d axis, double allowed) {
     const double l = length(axis);
     if (!(l > 1e-12 * size * size)) return false;  // parallel edges: no direction of their own
@@ -51,13 +50,18 @@ bool trianglesOverlap(const Corners& a, const Corners& b) {
   for (const Vec3d& e : pe)
     for (const Vec3d& f : qe) {
       const Vec3d axis = cross(e, f);
-      if (separates(axis, parallel(axis, pn) || parallel(axis, qn) ? slack : -slack)) return false;
+      if (separates(axis, parallel(axis, pn) || parallel(axis, qn) ? slack : rim)) return false;
     }
   for (const Vec3d& e : pe)
-    if (separates(cross(pn / size, e), -slack)) return false;
+    if (separates(cross(pn / size, e), rim)) return false;
   for (const Vec3d& f : qe)
-    if (separates(cross(qn / size, f), -slack)) return false;
+    if (separates(cross(qn / size, f), rim)) return false;
   return true;
 }
+
+}  // namespace
+
+bool trianglesMeet(const Corners& a, const Corners& b) { return meet(a, b, true); }
+bool trianglesOverlap(const Corners& a, const Corners& b) { return meet(a, b, false); }
 
 }  // namespace exemplar

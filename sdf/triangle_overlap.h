@@ -7,10 +7,12 @@
 
 namespace exemplar {
 
-/// Whether two triangles meet in more than their rims: they cross, lie on each other in one plane,
-/// or a side or corner of one lies in the middle of the other. Triangles that only share an edge or
-/// a corner, or touch edge to edge, do not overlap. Answers in doubt (within 1e-9 of their size)
-/// may go either way.
+/// Whether two triangles have a point in common; touching counts. Answers in doubt (within 1e-9 of
+/// their size) are yes.
+bool trianglesMeet(const Corners& a, const Corners& b);
+
+/// The same for triangles that share a corner: whether they have more in common than their rims.
+/// They cross, or lie on each other in one plane. Answers in doubt may go either way.
 bool trianglesOverlap(const Corners& a, const Corners& b);
 
 }  // namespace exemplar

@@ -154,28 +154,73 @@ void orient(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) 
   }
 }
 
-// Numbers the components and each triangle's.
-void connect(TriangleSoup& soup) {
-  std::vector<std::uint32_t> parent(soup.points.size());
-  for (std::uint32_t p = 0; p < parent.size(); ++p) parent[p] = p;
-  const auto root = [&](std::uint32_t p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
-  };
-  for (const auto& [a, b, c] : soup.triangles) {
-    const std::uint32_t r = root(a);
-    parent[root(b)] = r;
-    parent[root(c)] = r;
+// Sets of points that grow together.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    for (std::uint32_t p = 0; p < count; ++p) parent_[p] = p;
   }
+  std::uint32_t root(std::uint32_t p) {
+    while (parent_[p] != p) p = parent_[p] = parent_[parent_[p]];
+    return p;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[root(b)] = root(a); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// Joins rim points that are less than kRimGap apart.
+void joinRims(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>& onRim,
+              Sets& sets) {
+  constexpr double kRimGap = 0.25;
+  using Cell = std::array<std::int64_t, 3>;
+  const auto cellOf = [&](const Vec3d& p) {
+    Cell cell;
+    for (int axis = 0; axis < 3; ++axis)
+      cell[axis] =
+          static_cast<std::int64_t>(std::floor(std::clamp(p[axis] / kRimGap, -1e18, 1e18)));
+    return cell;
+  };
+  std::vector<std::pair<Cell, std::uint32_t>> cells;
+  for (std::uint32_t p = 0; p < points.size(); ++p)
+    if (onRim[p]) cells.emplace_back(cellOf(points[p]), p);
+  std::sort(cells.begin(), cells.end());
+  for (const auto& [cell, p] : cells)
+    for (std::int64_t dx = -1; dx <= 1; ++dx)
+      for (std::int64_t dy = -1; dy <= 1; ++dy) {
+        // The three cells along z stand together in the order.
+        const Cell first{cell[0] + dx, cell[1] + dy, cell[2] - 1};
+        auto other =
+            std::lower_bound(cells.begin(), cells.end(), std::make_pair(first, std::uint32_t{0}));
+        for (; other != cells.end() && other->first[0] == first[0] && other->first[1] == first[1] &&
+               other->first[2] <= cell[2] + 1;
+             ++other) {
+          if (length(points[p] - points[other->second]) < kRimGap) sets.join(p, other->second);
+        }
+      }
+}
+
+// Numbers the components and each triangle's.
+void connect(const std::vector<std::uint8_t>& onRim, TriangleSoup& soup) {
+  Sets sets(soup.points.size());
+  for (const auto& [a, b, c] : soup.triangles) {
+    sets.join(a, b);
+    sets.join(a, c);
+  }
+  joinRims(soup.points, onRim, sets);
   std::vector<std::uint32_t> number(soup.points.size(), TriangleSoup::kNone);
   soup.component.resize(soup.triangles.size());
-  std::uint32_t count = 0;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    std::uint32_t& n = number[root(soup.triangles[t][0])];
-    if (n == TriangleSoup::kNone) n = count++;
+    std::uint32_t& n = number[sets.root(soup.triangles[t][0])];
+    if (n == TriangleSoup::kNone) {
+      n = static_cast<std::uint32_t>(soup.componentClosed.size());
+      soup.componentClosed.push_back(1);
+    }
     soup.component[t] = n;
+    for (const std::uint32_t p : soup.triangles[t])
+      if (onRim[p]) soup.componentClosed[n] = 0;
   }
-  soup.componentClosed.assign(count, 1);
 }
 
 }  // namespace
@@ -189,7 +234,7 @@ TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scal
     for (std::uint32_t& v : t) v = indices[v];
   dropDegenerateAndRepeated(soup.points, soup.triangles);
   orient(soup.points, soup.triangles);
-  connect(soup);
+  std::vector<std::uint8_t> onRim(soup.points.size());
   const std::vector<Side> sides = sortedSides(soup.triangles);
   soup.closed = soup.even = true;
   constexpr std::uint32_t kNone = TriangleSoup::kNone;
@@ -198,13 +243,14 @@ TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scal
     int net = 0;
     for (std::size_t i = b; i < e; ++i) net += sides[i].upwards ? 1 : -1;
     soup.closed &= net == 0;
-    if (net != 0) soup.componentClosed[soup.component[sides[b].triangle]] = 0;
+    if (net != 0) onRim[sides[b].low] = onRim[sides[b].high] = 1;
     soup.even &= (e - b) % 2 == 0;
     if (e - b == 2 && net == 0) {
       soup.neighbours[sides[b].triangle][sides[b].side] = sides[b + 1].triangle;
       soup.neighbours[sides[b + 1].triangle][sides[b + 1].side] = sides[b].triangle;
     }
   });
+  connect(onRim, soup);
   return soup;
 }
 

@@ -30,8 +30,10 @@ struct TriangleSoup {
   /// meet there and face the same way; else `kNone`.
   std::vector<std::array<std::uint32_t, 3>> neighbours;
 
-  /// For each triangle its component, connected through common points, numbered by first triangle;
-  /// and for each component whether it is closed by itself.
+  /// For each triangle its component, numbered by first triangle; and for each component whether it
+  /// is closed. Components hang together through common points, and through points on the rims of
+  /// their openings that are less than a quarter (of `scale`) apart: parts that were modelled one
+  /// by one and never joined.
   std::vector<std::uint32_t> component;
   std::vector<std::uint8_t> componentClosed;
 

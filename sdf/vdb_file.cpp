@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <sstream>
@@ -76,7 +77,9 @@ void writeGrids(const fs::path& path, const openvdb::GridCPtrVec& grids) {
   out.commit();
 }
 
-// A stream over bytes that are already in memory, without a second copy of them.
+// A stream over bytes that are already in memory, without a second copy of them. It gives all of
+// what is asked for or nothing: OpenVDB takes the sizes of some blocks from the file and checks
+// them only after reading, so that a damaged size would write past the end of a buffer.
 class BytesBuffer : public std::streambuf {
  public:
   explicit BytesBuffer(std::string& bytes) {
@@ -84,6 +87,12 @@ class BytesBuffer : public std::streambuf {
   }
 
  protected:
+  std::streamsize xsgetn(char* to, std::streamsize count) override {
+    if (count < 0 || count > egptr() - gptr()) return 0;
+    std::memcpy(to, gptr(), static_cast<std::size_t>(count));
+    setg(eback(), gptr() + count, egptr());
+    return count;
+  }
   pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
     const off_type base = from == std::ios_base::beg   ? 0
                           : from == std::ios_base::cur ? gptr() - eback()

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 
@@ -83,6 +84,11 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// A file with this content, without the care for crashes that the library takes (and pays for).
+inline void writeBytes(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
 
 /// The message of the InputError that `work` throws; empty where it throws none.
 template <class Work>

@@ -1,0 +1,309 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "sdf/vdb_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/LevelSetSphere.h>
+#include <openvdb/tools/LevelSetUtil.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "core/file.h"
+#include "tests/sdf/shapes.h"
+
+namespace exemplar {
+namespace {
+
+using test::inputError;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+DistanceField torusField(double truncation, const Vec3i& size = {40, 36, 20}) {
+  return test::sampled(test::torus({1, 2, 3}, 0.7, 0.25), size, 0.06, {-0.15, 0.95, 2.4},
+                       truncation);
+}
+
+// Grids written by OpenVDB alone, as other programs write them.
+void writeGrid(const std::filesystem::path& path, const openvdb::GridBase::Ptr& grid) {
+  openvdb::io::File(path.string()).write(openvdb::GridPtrVec{grid});
+}
+
+void expectSame(const DistanceField& a, const DistanceField& b) {
+  EXPECT_EQ(a.size(), b.size());
+  EXPECT_DOUBLE_EQ(a.voxelSize, b.voxelSize);
+  EXPECT_NEAR(length(a.origin - b.origin), 0, 1e-12);
+  EXPECT_EQ(a.truncation, b.truncation);
+  EXPECT_EQ(a.values, b.values);
+}
+
+TEST(VdbFile, ComesBackToTheLastBit) {
+  const TemporaryFolder folder;
+  for (const double truncation : {0.18, 0.06, 0.5, kInfinity}) {
+    const DistanceField field = torusField(truncation);
+    writeVdb(folder / "field.vdb", field);
+    expectSame(readVdb(folder / "field.vdb"), field);
+  }
+}
+
+TEST(VdbFile, KeepsFieldsWithoutASurfaceAndOfASingleSample) {
+  const TemporaryFolder folder;
+  for (const float value : {0.5f, -0.5f, 0.1f, 0.0f}) {
+    const DistanceField field{Array3D<float>({3, 1, 2}, value), 0.25, {1, 1, 1}, 0.5f};
+    writeVdb(folder / "field.vdb", field);
+    // Without an active voxel, too: the box is written down.
+    expectSame(readVdb(folder / "field.vdb"), field);
+  }
+  const auto empty = openvdb::FloatGrid::create(1);
+  writeGrid(folder / "empty.vdb", empty);
+  EXPECT_THAT(inputError([&] { readVdb(folder / "empty.vdb"); }), HasSubstr("no active voxels"));
+  EXPECT_THAT(inputError([&] { writeVdb(folder / "none.vdb", DistanceField{}); }),
+              HasSubstr("no samples"));
+}
+
+TEST(VdbFile, SaysThatItIsALevelSet) {
+  const TemporaryFolder folder;
+  writeVdb(folder / "field.vdb", torusField(0.18));
+  openvdb::io::File file((folder / "field.vdb").string());
+  file.open(false);
+  const auto grids = file.getGrids();
+  ASSERT_EQ(grids->size(), 1u);
+  const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(grids->front());
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(grid->getName(), "surface");
+  EXPECT_EQ(grid->getGridClass(), openvdb::GRID_LEVEL_SET);
+  EXPECT_FLOAT_EQ(grid->background(), 0.18f);
+  EXPECT_DOUBLE_EQ(grid->voxelSize()[0], 0.06);
+  // Samples outside the band are background, and those inside the solid have its sign.
+  const DistanceField field = torusField(0.18);
+  std::uint64_t active = 0;
+  for (const float v : field.values.values()) active += std::abs(v) < field.truncation;
+  EXPECT_EQ(grid->activeVoxelCount(), active);
+  EXPECT_LT(grid->tree().getValue({31, 17, 10}), 0);
+  // World positions are those of the field.
+  const openvdb::Vec3d at = grid->indexToWorld(openvdb::Coord(3, 4, 5));
+  EXPECT_NEAR(length(field.position({3, 4, 5}) - Vec3d{at[0], at[1], at[2]}), 0, 1e-12);
+}
+
+TEST(VdbFile, IsListedByVdbPrint) {
+  if (std::system("command -v vdb_print > /dev/null") != 0)
+    GTEST_SKIP() << "vdb_print is not installed";
+  const TemporaryFolder folder;
+  writeVdb(folder / "field.vdb", torusField(0.18));
+  const std::string command = "vdb_print -l " + (folder / "field.vdb").string() + " > " +
+                              (folder / "out.txt").string() + " 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string text = readFile(folder / "out.txt");
+  EXPECT_THAT(text, HasSubstr("surface"));
+  EXPECT_THAT(text, HasSubstr("level set"));
+  EXPECT_THAT(text, HasSubstr("0.06"));
+}
+
+TEST(VdbFile, TheSameFieldGivesTheSameBytes) {
+  const TemporaryFolder folder;
+  writeVdb(folder / "a.vdb", torusField(0.18));
+  writeVdb(folder / "b.vdb", torusField(0.18));
+  writeVdb(folder / "c.vdb", torusField(0.12));
+  EXPECT_EQ(readFile(folder / "a.vdb"), readFile(folder / "b.vdb"));
+  // The id that stands for the content tells different ones apart.
+  EXPECT_NE(readFile(folder / "a.vdb").substr(21, 36), readFile(folder / "c.vdb").substr(21, 36));
+}
+
+TEST(VdbFile, ReadsLevelSetsOfOtherPrograms) {
+  const TemporaryFolder folder;
+  const auto sphere =
+      openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {5, 6, 7}, 0.1f, 3.0f);
+  sphere->setName("density of nothing");
+  writeGrid(folder / "sphere.vdb", sphere);
+  const DistanceField field = readVdb(folder / "sphere.vdb");
+  EXPECT_FLOAT_EQ(field.truncation, 0.3f);
+  EXPECT_NEAR(field.voxelSize, 0.1, 1e-8);
+  // createLevelSetSphere is exact.
+  EXPECT_LT(test::worstError(field, test::sphere({5, 6, 7}, 1)), 1e-4);
+}
+
+TEST(VdbFile, ReadsHalfFloatsAndDoubles) {
+  const TemporaryFolder folder;
+  const auto half = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
+  half->setSaveFloatAsHalf(true);
+  writeGrid(folder / "half.vdb", half);
+  // Halves of 0.3 have steps of 2.4e-4, 0.0024 voxels.
+  EXPECT_LT(test::worstError(readVdb(folder / "half.vdb"), test::sphere({}, 1)), 0.003);
+
+  const auto doubles =
+      openvdb::tools::createLevelSetSphere<openvdb::DoubleGrid>(1.0f, {0, 0, 0}, 0.1f);
+  writeGrid(folder / "double.vdb", doubles);
+  EXPECT_LT(test::worstError(readVdb(folder / "double.vdb"), test::sphere({}, 1)), 1e-4);
+}
+
+TEST(VdbFile, ReadsFogVolumesByTheirHalf) {
+  const TemporaryFolder folder;
+  // Density 1 inside, falling to 0 over 3 voxels below the surface: 0.5 is 1.5 voxels deep.
+  const auto fog =
+      openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0.02f, 0, 0}, 0.05f, 3.0f);
+  openvdb::tools::sdfToFogVolume(*fog);
+  for (const bool unknownClass : {false, true}) {
+    if (unknownClass) fog->setGridClass(openvdb::GRID_UNKNOWN);
+    writeGrid(folder / "fog.vdb", fog);
+    const DistanceField field = readVdb(folder / "fog.vdb");
+    EXPECT_FLOAT_EQ(field.truncation, 0.15f);
+    EXPECT_LT(test::worstError(field, test::sphere({0.02, 0, 0}, 1 - 1.5 * 0.05)), 0.1);
+  }
+}
+
+TEST(VdbFile, PicksTheFirstGridOfFloats) {
+  const TemporaryFolder folder;
+  const auto vectors = openvdb::Vec3SGrid::create();
+  vectors->setName("velocity");
+  const auto sphere =
+      openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.2f);
+  openvdb::io::File((folder / "two.vdb").string()).write(openvdb::GridPtrVec{vectors, sphere});
+  EXPECT_LT(test::worstError(readVdb(folder / "two.vdb"), test::sphere({}, 1)), 1e-4);
+  writeGrid(folder / "none.vdb", vectors);
+  EXPECT_THAT(inputError([&] { readVdb(folder / "none.vdb"); }),
+              testing::AllOf(HasSubstr("no grid of floats"), HasSubstr("velocity")));
+}
+
+TEST(VdbFile, RefusesVoxelsThatAreNoCubes) {
+  const TemporaryFolder folder;
+  const auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.2f);
+  const auto refuse = [&](const openvdb::math::Transform::Ptr& transform) {
+    grid->setTransform(transform);
+    writeGrid(folder / "grid.vdb", grid);
+    EXPECT_THAT(inputError([&] { readVdb(folder / "grid.vdb"); }), HasSubstr("cubes"));
+  };
+  using openvdb::math::Transform;
+  auto transform = Transform::createLinearTransform(0.2);
+  transform->preScale({1, 1, 2});
+  refuse(transform);
+  transform = Transform::createLinearTransform(0.2);
+  transform->postRotate(0.3, openvdb::math::Z_AXIS);
+  refuse(transform);
+  transform = Transform::createLinearTransform(0.2);
+  transform->postScale({-1, -1, 1});
+  refuse(transform);
+  refuse(Transform::createFrustumTransform(openvdb::BBoxd({0, 0, 0}, {10, 10, 10}), 0.5, 10));
+}
+
+TEST(VdbFile, RefusesActiveBoxesThatDoNotFitInMemory) {
+  const TemporaryFolder folder;
+  const auto grid = openvdb::FloatGrid::create(1);
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  auto accessor = grid->getAccessor();
+  for (const int far : {100000, 2147483000}) {
+    accessor.setValue({-far, -far, -far}, -0.5f);
+    accessor.setValue({far, far, far}, 0.5f);
+    writeGrid(folder / "huge.vdb", grid);
+    const std::string error = inputError([&] { readVdb(folder / "huge.vdb"); });
+    EXPECT_THAT(error, HasSubstr("huge.vdb"));
+    EXPECT_THAT(error, HasSubstr("available"));
+  }
+}
+
+TEST(VdbFile, RefusesValuesThatAreNoNumbers) {
+  const TemporaryFolder folder;
+  const auto grid = openvdb::FloatGrid::create(1);
+  for (const float value : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    grid->tree().setValue({0, 0, 0}, value);
+    writeGrid(folder / "nan.vdb", grid);
+    EXPECT_THAT(inputError([&] { readVdb(folder / "nan.vdb"); }), HasSubstr("NaN"));
+  }
+}
+
+TEST(VdbFile, RefusesFilesThatEndEarlyAtAnyByte) {
+  const TemporaryFolder folder;
+  writeVdb(folder / "whole.vdb", torusField(0.12, {14, 13, 12}));
+  const std::string whole = readFile(folder / "whole.vdb");
+  for (std::size_t n = 1; n < whole.size(); n += n < 300 ? 1 : 59) {
+    test::writeBytes(folder / "part.vdb", whole.substr(0, n));
+    const std::string error = inputError([&] { readVdb(folder / "part.vdb"); });
+    ASSERT_THAT(error, HasSubstr("part.vdb")) << n << " of " << whole.size();
+    ASSERT_THAT(error, Not(HasSubstr("\n")));
+  }
+}
+
+TEST(VdbFile, DamagedBytesAreReadOrRefusedButNothingElse) {
+  const TemporaryFolder folder;
+  writeVdb(folder / "whole.vdb", torusField(0.12, {14, 13, 12}));
+  const std::string whole = readFile(folder / "whole.vdb");
+  const Random random(5);
+  int refused = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::string bytes = whole;
+    for (std::uint32_t c = 0; c <= random.below(3, trial, 0); ++c) {
+      bytes[random.below(static_cast<std::uint32_t>(bytes.size()), trial, 2 * c + 1)] =
+          static_cast<char>(random.below(256, trial, 2 * c + 2));
+    }
+    test::writeBytes(folder / "damaged.vdb", bytes);
+    refused += !inputError([&] {
+                  const DistanceField field = readVdb(folder / "damaged.vdb");
+                  for (const float v : field.values.values()) ASSERT_TRUE(std::isfinite(v));
+                }).empty();
+  }
+  EXPECT_GT(refused, 50);
+}
+
+TEST(VdbFile, RefusesWhatIsNoVdbFile) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(inputError([&] { readVdb(folder / "missing.vdb"); }), HasSubstr("no such file"));
+  writeFile(folder / "empty.vdb", "");
+  EXPECT_THAT(inputError([&] { readVdb(folder / "empty.vdb"); }), HasSubstr("empty"));
+  writeFile(folder / "text.vdb",
+            "this is no volume, whatever its name says; it is a text, and a long one at that");
+  EXPECT_THAT(inputError([&] { readVdb(folder / "text.vdb"); }), HasSubstr("text.vdb"));
+  EXPECT_THAT(inputError([&] { writeVdb(folder / "no/such/folder.vdb", torusField(0.18)); }),
+              HasSubstr("cannot be written"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "no"));
+}
+
+TEST(VdbFile, OriginsComeBackWhole) {
+  const TemporaryFolder folder;
+  const DistanceField field = torusField(0.18, {9, 17, 5});
+  Origins origins(field.size());
+  const Random random(3);
+  for (std::size_t s = 0; s < origins.count(); ++s)
+    origins.values()[s] = Origin(
+        {static_cast<int>(random.below(32768, s, 0)), static_cast<int>(random.below(32768, s, 1)),
+         static_cast<int>(random.below(32768, s, 2))},
+        static_cast<int>(random.below(256, s, 3)), static_cast<int>(random.below(4, s, 4)));
+  writeOriginsVdb(folder / "origins.vdb", origins, field);
+  EXPECT_EQ(readOriginsVdb(folder / "origins.vdb"), origins);
+  // Constant origins collapse to tiles; the box is still all there.
+  origins = Origins({40, 40, 40}, Origin({1, 2, 3}, 4, 1));
+  writeOriginsVdb(folder / "origins.vdb", origins, field);
+  EXPECT_EQ(readOriginsVdb(folder / "origins.vdb"), origins);
+}
+
+TEST(VdbFile, RefusesOriginsThatAreNone) {
+  const TemporaryFolder folder;
+  writeVdb(folder / "field.vdb", torusField(0.18));
+  EXPECT_THAT(inputError([&] { readOriginsVdb(folder / "field.vdb"); }), HasSubstr("origin"));
+  const auto cells = openvdb::Vec3IGrid::create(openvdb::Vec3i(0));
+  const auto sources = openvdb::Int32Grid::create(0);
+  cells->setName("origin");
+  sources->setName("source");
+  const auto write = [&] {
+    openvdb::io::File((folder / "bad.vdb").string()).write(openvdb::GridPtrVec{cells, sources});
+  };
+  cells->tree().setValue({0, 0, 0}, openvdb::Vec3i(40000, 0, 0));
+  sources->tree().setValue({0, 0, 0}, 1);
+  write();
+  EXPECT_THAT(inputError([&] { readOriginsVdb(folder / "bad.vdb"); }), HasSubstr("out of range"));
+  cells->tree().setValue({0, 0, 0}, openvdb::Vec3i(4, 0, 0));
+  sources->tree().setValue({5, 0, 0}, 1);
+  write();
+  EXPECT_THAT(inputError([&] { readOriginsVdb(folder / "bad.vdb"); }), HasSubstr("differ"));
+}
+
+}  // namespace
+}  // namespace exemplar
