@@ -32,7 +32,7 @@ enum class Surface { Contour, Copy };
 struct Options {
   std::string example, output, scale, preview, stats, origins;
   std::string engine = "geometry";
-  Method method = Method::Blocks;
+  Method method = Method::Optimize;
   Surface surface = Surface::Contour;
   BlockSeeding seeding = BlocksOptions{}.seeding;
   std::optional<int> block, levels;
@@ -229,7 +229,7 @@ CommandRun addSynthCommand(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--method", options->method,
-                   "blocks (Lagae 2004) or optimize (overlapping patches)")
+                   "optimize (overlapping patches; the default) or blocks (Lagae 2004)")
       ->transform(CLI::CheckedTransformer(std::map<std::string, Method>{
           {"blocks", Method::Blocks}, {"optimize", Method::Optimize}}))
       ->option_text("blocks|optimize");

@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "sdf/resample.h"
+#include "search/block_index.h"
 #include "search/linear_scan.h"
 #include "search/search_tree.h"
 #include "synth/geometry/stationary.h"
@@ -33,10 +34,11 @@ bool keepsHeight(const DistanceField& example, const BlocksOptions& options) {
 /// along each axis, and, where blocks keep their height, cut into overlapping slabs of a block's
 /// height.
 struct BlockSource {
-  int side = 0;            ///< of blocks, in finest samples
-  bool slabs = false;      ///< slab n begins at height n * side / 2; else there is one, the whole
+  int side = 0;        ///< of blocks, in finest samples
+  bool slabs = false;  ///< slab n begins at height n * side / 2; else there is one, the whole
   std::optional<SlidingPyramid> pyramid;  ///< of the whole
-  std::vector<SearchTree> trees;
+  std::vector<SlidingPyramid> pyramids;   ///< of the slabs
+  std::vector<SearchTree> trees;          ///< of the slabs, where they are what is searched
 
   BlockSource(const DistanceField& example, int blockSide, const BlocksOptions& options)
       : side(blockSide), slabs(keepsHeight(example, options)) {
@@ -53,7 +55,9 @@ struct BlockSource {
       return source;
     };
     for (int slab = 0; slab < (slabs ? halves - 1 : 1); ++slab) {
-      trees.emplace_back(slabs ? cut(slab * (side / 2), side) : cut(0, size.z), side);
+      auto levelsOfSlab = slabs ? cut(slab * (side / 2), side) : cut(0, size.z);
+      if (options.search == BlockSearch::Tree) trees.emplace_back(levelsOfSlab, side);
+      pyramids.emplace_back(std::move(levelsOfSlab), side);
     }
     pyramid.emplace(cut(0, size.z), side);
   }
@@ -78,17 +82,19 @@ class Pass {
     origins_ = Array3D<Vec3i>(cells_ * half_);
     target_ = Array3D<std::uint8_t>(origins_.size());
     made_ = Array3D<std::uint8_t>(origins_.size());
-    for (const SearchTree& tree : source.trees) {
-      if (options.search == BlockSearch::Tree) {
-        trees_.push_back(tree.dropLeaves(level));
-        continue;
-      }
-      const Array3D<std::uint8_t>& averages = tree.pyramid().averages(level);
+    for (const SearchTree& tree : source.trees) trees_.push_back(tree.dropLeaves(level));
+    for (const SlidingPyramid& pyramid : source.pyramids) {
+      if (options.search == BlockSearch::Tree) break;
+      const Array3D<std::uint8_t>& averages = pyramid.averages(level);
       Array3D<std::uint8_t> lattice((averages.size() - Vec3i{1, 1, 1}) / step_ + Vec3i{1, 1, 1});
       for (std::size_t s = 0; s < lattice.count(); ++s) {
         lattice.values()[s] = averages[lattice.ijk(s) * step_];
       }
-      lattices_.push_back(std::move(lattice));
+      if (options.search == BlockSearch::Index) {
+        indices_.emplace_back(std::move(lattice), Vec3i{1, 1, 1} * (2 * half_));
+      } else {
+        lattices_.push_back(std::move(lattice));
+      }
     }
   }
 
@@ -179,9 +185,28 @@ class Pass {
   /// The best place in the slab that the block may come from, in finest samples.
   Vec3i bestMatch(const BlockQuery<std::uint8_t>& query, const Vec3i& block) const {
     const std::size_t slab = height_ > 0 ? block.z : 0;
-    return options_.search == BlockSearch::Scan
-               ? linearScan(lattices_[slab], query).position * step_
-               : trees_[slab].findBest(query, {.positionStride = step_}).position;
+    switch (options_.search) {
+      case BlockSearch::Index:
+        return indices_[slab].findBest(query, hints(block)).position * step_;
+      case BlockSearch::Scan:
+        return linearScan(lattices_[slab], query).position * step_;
+      case BlockSearch::Tree:
+        break;
+    }
+    return trees_[slab].findBest(query, {.positionStride = step_}).position;
+  }
+
+  /// Where the block would go on with what its corner and its neighbours hold: likely to be near.
+  std::vector<BlockMatch> hints(const Vec3i& block) const {
+    std::vector<BlockMatch> likely;
+    const Vec3i first = block * half_;
+    for (const Vec3i& within : {Vec3i{0, 0, 0}, Vec3i{half_, 0, 0}, Vec3i{0, half_, 0},
+                                Vec3i{0, 0, half_}, Vec3i{half_, half_, half_}}) {
+      const Vec3i from = origins_[first + within] - Vec3i{0, 0, block.z * height_};
+      likely.push_back(
+          {.position = Vec3i{from.x / step_, from.y / step_, from.z / step_} - within});
+    }
+    return likely;
   }
 
   /// Any place in the slab.
@@ -198,7 +223,8 @@ class Pass {
 
   const Array3D<std::uint8_t>& source_;  ///< averages of the level's cells, at every fine shift
   std::vector<SearchTree> trees_;        ///< of the slabs, less their leaves
-  std::vector<Array3D<std::uint8_t>> lattices_;  ///< the subsampled slabs, for scanning
+  std::vector<Array3D<std::uint8_t>> lattices_;    ///< the subsampled slabs, for scanning
+  std::vector<BlockIndex<std::uint8_t>> indices_;  ///< of the subsampled slabs
   int step_, half_,
       height_;  ///< finest samples a cell, samples half a block, between slabs (0: one slab)
   const BlocksOptions& options_;

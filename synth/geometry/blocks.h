@@ -18,9 +18,10 @@ enum class BlockSeeding {
 
 /// How best matches are found. All are exact and give the same result.
 enum class BlockSearch {
-  Tree,  ///< the paper's search tree (section 4)
-  Scan,  ///< the vectorised linear scan: faster than the tree on targets that are no distance
-         ///< fields
+  Index,  ///< `BlockIndex`: the fastest
+  Tree,   ///< the paper's search tree (section 4)
+  Scan,   ///< the vectorised linear scan: faster than the tree on targets that are no distance
+          ///< fields
 };
 
 struct BlocksOptions {
@@ -29,7 +30,7 @@ struct BlocksOptions {
   int block = 16;      ///< samples a side in the last iteration; a power of two, 2..256
   int iterations = 3;  ///< levels of resolution, each half as fine as the next; 1..8
   BlockSeeding seeding = BlockSeeding::Random;
-  BlockSearch search = BlockSearch::Scan;
+  BlockSearch search = BlockSearch::Index;
   double truncation = 4;  ///< distances are compared up to here, in voxels, in 256 levels; > 0
 };
 

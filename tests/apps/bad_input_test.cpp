@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "sideways"},
         BadInput{"BadPictureSize", "e.obj", kTriangle, "-o o.obj --preview p.png --size 0x9",
                  "--size 0x9"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(BadCommand, MissingFileIsNamed) {
   const TestFolder folder;
