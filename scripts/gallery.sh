@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Makes docs/gallery: for each bundled scene the example beside a result, at one scale, and the figures of
+# the run in out/gallery. gallery.sh [SCENE]... (all of them by default). Some minutes.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+exemplar=${EXEMPLAR:-build/release/apps/exemplar}
+[ -x "$exemplar" ] || scripts/build.sh exemplar
+mkdir -p out/gallery docs/gallery
+scenes=("$@")
+[ ${#scenes[@]} -gt 0 ] || scenes=(chainmail terrain grass metal grid balls fibers)
+for scene in "${scenes[@]}"; do
+  echo "== $scene"
+  "$exemplar" synth "scenes/$scene.toml" -o "out/gallery/$scene.glb" --stats "out/gallery/$scene.json" --method "${METHOD:-optimize}"
+  "$exemplar" render "scenes/$scene.toml" "out/gallery/$scene.glb" -o "docs/gallery/$scene.png" --size 640x480 --samples 48
+done
