@@ -21,10 +21,10 @@ namespace exemplar {
 struct Scene {
   std::string name;
   TriangleMesh mesh;
-  Box3d box;                         ///< the example: sample here
-  int resolution = 64;               ///< samples along the box's longest side
-  Vec3d scale{2, 2, 1};              ///< the size of a result, in boxes
-  int block = 16;                    ///< block size at the finest level, in samples
+  Box3d box;             ///< the example: sample here
+  int resolution = 64;   ///< samples along the box's longest side
+  Vec3d scale{2, 2, 1};  ///< the size of a result, in boxes
+  int block = 16;        ///< block size at the finest level, in samples
 };
 
 struct SceneOptions {
@@ -35,8 +35,9 @@ struct SceneOptions {
 };
 
 /// Makes a scene from its file. Kinds: chainmail, fibers, metal, grid, balls, terrain, grass (each
-/// file states its parameters, all with units and ranges; an unknown key is an error). The same file
-/// and options give the same scene, to the byte. Throws `InputError` naming file, line and key.
+/// file states its parameters, all with units and ranges; an unknown key is an error). The same
+/// file and options give the same scene, to the byte. Throws `InputError` naming file, line and
+/// key.
 Scene readScene(const std::filesystem::path& path, const SceneOptions& options = {});
 
 /// The bundled scene file called `name` ("chainmail"), or a path as it is. Looks in the folder that
