@@ -26,6 +26,7 @@ using CommandRun = std::function<void()>;
 CommandRun addSynthCommand(CLI::App& app);
 CommandRun addSdfCommand(CLI::App& app);
 CommandRun addMeshCommand(CLI::App& app);
+CommandRun addMeasureCommand(CLI::App& app);
 CommandRun addRenderCommand(CLI::App& app);
 CommandRun addSceneCommand(CLI::App& app);
 

@@ -43,9 +43,9 @@ int main(int argc, char** argv) {
 
   using exemplar::CommandRun;
   std::vector<std::pair<const char*, CommandRun>> commands{
-      {"synth", exemplar::addSynthCommand(app)}, {"sdf", exemplar::addSdfCommand(app)},
-      {"mesh", exemplar::addMeshCommand(app)},   {"render", exemplar::addRenderCommand(app)},
-      {"scene", exemplar::addSceneCommand(app)},
+      {"synth", exemplar::addSynthCommand(app)},     {"sdf", exemplar::addSdfCommand(app)},
+      {"mesh", exemplar::addMeshCommand(app)},       {"render", exemplar::addRenderCommand(app)},
+      {"measure", exemplar::addMeasureCommand(app)}, {"scene", exemplar::addSceneCommand(app)},
   };
 
   try {

@@ -37,12 +37,13 @@ class Terminal {
   void step(std::string_view stage);
   /// Wipes the progress line and prints one line of the summary to stdout: a label and its text.
   void say(std::string_view label, const std::string& text);
+  /// Wipes the progress line.
+  void wipe();
   /// Throws `Interrupted` when Ctrl-C was pressed.
   void stopIfInterrupted() const;
 
  private:
   void show(std::string_view stage, double fraction);
-  void wipe();
 
   bool quiet_, interactive_;
   std::mutex mutex_;

@@ -104,6 +104,25 @@ TEST(SdfAndMeshCommands, GoThereAndBack) {
   EXPECT_GT(health.signedVolume, 0);
 }
 
+TEST(MeasureCommand, AnExampleIsLikeItselfAndUnlikeAnother) {
+  const TestFolder folder;
+  const auto share = [&](const std::string& example, const std::string& result) {
+    const auto run =
+        runExemplar("measure " + example + " " + result + " --json f.json", folder.path());
+    EXPECT_EQ(run.status, 0) << run.err;
+    return nlohmann::json::parse(readFile(folder / "f.json"))["likeness"]["lp_dense"].get<double>();
+  };
+  ASSERT_EQ(
+      runExemplar("sdf " + scene("chainmail") + " --resolution 32 -o a.vdb", folder.path()).status,
+      0);
+  ASSERT_EQ(runExemplar("sdf " + scene("grid") + " --resolution 32 -o b.vdb", folder.path()).status,
+            0);
+  EXPECT_EQ(share("a.vdb", "a.vdb"), 1.0);
+  // Voxel sizes differ, and that is said.
+  const auto other = runExemplar("measure a.vdb b.vdb --json f.json", folder.path());
+  EXPECT_TRUE(other.status == 2 || share("a.vdb", "b.vdb") < 0.2) << other.err;
+}
+
 TEST(SynthCommand, QuietSaysNothing) {
   const TestFolder folder;
   const auto result =
