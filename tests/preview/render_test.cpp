@@ -1,0 +1,188 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "preview/render.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <cmath>
+
+#include "core/error.h"
+#include "mesh/primitives.h"
+
+namespace exemplar {
+namespace {
+
+RenderOptions quick(const std::string& view = "iso") {
+  RenderOptions options;
+  options.width = 160;
+  options.height = 120;
+  options.samples = 8;
+  options.view = viewFromName(view);
+  return options;
+}
+
+bool isBackground(const Image8& image, int x, int y) {
+  for (int c = 0; c < 3; ++c) {
+    // Noise and the far ground's shade move the background by a few steps.
+    if (std::abs(image.at(x, y)[c] - kBackground[c]) > 6) return false;
+  }
+  return true;
+}
+
+int luminance(const Image8& image, int x, int y) {
+  const std::uint8_t* p = image.at(x, y);
+  return (p[0] * 2 + p[1] * 5 + p[2]) / 8;
+}
+
+TEST(Render, HoldsTheMeshAndLeavesTheBorderFree) {
+  for (const char* view : {"iso", "front", "back", "left", "right", "-70,10", "20,80"}) {
+    for (const Vec3d& size : {Vec3d{8, 8, 1}, Vec3d{1, 1, 8}, Vec3d{1, 1, 1}}) {
+      RenderOptions options = quick(view);
+      options.ground = false;
+      const Image8 image = render(makeBox({size * -0.5, size * 0.5}), options);
+      ASSERT_EQ(image.width, options.width);
+      ASSERT_EQ(image.channels, 3);
+      int covered = 0;
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) covered += !isBackground(image, x, y);
+      }
+      EXPECT_GT(covered, 500) << view;
+      for (int x = 0; x < image.width; ++x) {
+        EXPECT_TRUE(isBackground(image, x, 0) && isBackground(image, x, image.height - 1)) << view;
+      }
+      for (int y = 0; y < image.height; ++y) {
+        EXPECT_TRUE(isBackground(image, 0, y) && isBackground(image, image.width - 1, y)) << view;
+      }
+    }
+  }
+}
+
+TEST(Render, ASphereIsRound) {
+  RenderOptions options = quick("front");
+  options.ground = false;
+  const Image8 image = render(makeSphere({0, 0, 0}, 1, 12), options);
+  int left = image.width, right = -1, top = image.height, bottom = -1;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (isBackground(image, x, y)) continue;
+      left = std::min(left, x);
+      right = std::max(right, x);
+      top = std::min(top, y);
+      bottom = std::max(bottom, y);
+    }
+  }
+  // The silhouette's edge falls on a pixel or its neighbour on each side.
+  EXPECT_NEAR(right - left, bottom - top, 3);
+  EXPECT_NEAR(right + left, image.width - 1, 3);
+}
+
+TEST(Render, ShowsMaterialsAndVertexColors) {
+  TriangleMesh red = makeSphere({0, 0, 0}, 1, 8);
+  setMaterial(red, {.name = "red", .baseColor = {0.8f, 0.05f, 0.05f, 1}});
+  const Image8 byMaterial = render(red, quick());
+  TriangleMesh green = makeSphere({0, 0, 0}, 1, 8);
+  green.colors.assign(green.positions.size(), {0.05f, 0.6f, 0.05f, 1});
+  const Image8 byColor = render(green, quick());
+  const std::uint8_t* p = byMaterial.at(80, 60);
+  EXPECT_GT(p[0], p[1] + 40);
+  EXPECT_GT(p[0], p[2] + 40);
+  const std::uint8_t* q = byColor.at(80, 60);
+  EXPECT_GT(q[1], q[0] + 40);
+  EXPECT_GT(q[1], q[2] + 40);
+}
+
+TEST(Render, TheGroundCatchesAShadow) {
+  TriangleMesh mesh = makeSphere({0, 0, 0}, 1, 8);
+  RenderOptions options = quick();
+  const Image8 with = render(mesh, options);
+  options.ground = false;
+  const Image8 without = render(mesh, options);
+  int darkest = 255, darkestWithout = 255;
+  for (int y = 0; y < with.height; ++y) {
+    for (int x = 0; x < with.width; ++x) {
+      // Only where there is no sphere.
+      if (!isBackground(without, x, y)) continue;
+      darkest = std::min(darkest, luminance(with, x, y));
+      darkestWithout = std::min(darkestWithout, luminance(without, x, y));
+    }
+  }
+  EXPECT_LT(darkest, darkestWithout - 40);
+}
+
+TEST(Render, IsTheSameBytesAtOneAndEightThreads) {
+  const TriangleMesh mesh = makeTorus({0, 0, 0}, {0, 0, 1}, 1, 0.4, 24, 12);
+  tbb::task_arena one(1), eight(8);
+  const auto run = [&] { return render(mesh, quick()).pixels; };
+  EXPECT_EQ(one.execute(run), eight.execute(run));
+}
+
+TEST(Render, OpenFlatTinyAndHugeMeshesAreShown) {
+  TriangleMesh triangle;
+  triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+  triangle.triangles = {{0, 1, 2}};
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    TriangleMesh mesh = triangle;
+    for (Vec3d& p : mesh.positions) p *= scale;
+    const Image8 image = render(mesh, quick());
+    int covered = 0;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) covered += !isBackground(image, x, y);
+    }
+    EXPECT_GT(covered, 300) << scale;
+  }
+}
+
+TEST(Render, StopsWhenCancelled) {
+  const std::atomic<bool> cancel{true};
+  const Progress progress({}, &cancel);
+  EXPECT_EQ(render(makeSphere({0, 0, 0}, 1), quick(), progress).width, 0);
+}
+
+TEST(Render, RefusesWhatIsOutOfRange) {
+  const TriangleMesh mesh = makeSphere({0, 0, 0}, 1);
+  const auto refused = [&](auto change) {
+    RenderOptions options = quick();
+    change(options);
+    EXPECT_THROW(render(mesh, options), InputError);
+  };
+  refused([](RenderOptions& o) { o.width = 0; });
+  refused([](RenderOptions& o) { o.height = 20000; });
+  refused([](RenderOptions& o) { o.samples = 0; });
+  refused([](RenderOptions& o) { o.view.elevation = 2; });
+  EXPECT_THROW(render(TriangleMesh{}, quick()), InputError);
+}
+
+TEST(ViewFromName, KnowsNamesAndAnglesAndSaysSo) {
+  EXPECT_NEAR(viewFromName("90,45").azimuth, 1.5707963, 1e-6);
+  EXPECT_NEAR(viewFromName("90,45").elevation, 0.7853982, 1e-6);
+  EXPECT_NEAR(viewFromName("top").elevation, 1.5707963, 1e-3);
+  for (const char* bad : {"", "sideways", "1", "1,2,3", "nan,0", "0,91"}) {
+    EXPECT_THROW((void)viewFromName(bad), InputError) << bad;
+  }
+  try {
+    (void)viewFromName("sideways");
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("front"));
+  }
+}
+
+TEST(SideBySide, PutsPicturesInARow) {
+  Image8 a{2, 2, 3, std::vector<std::uint8_t>(12, 10)},
+      b{3, 4, 3, std::vector<std::uint8_t>(36, 20)};
+  const std::vector<Image8> both{a, b};
+  const Image8 row = sideBySide(both, 1);
+  EXPECT_EQ(row.width, 6);
+  EXPECT_EQ(row.height, 4);
+  EXPECT_EQ(row.at(0, 1)[0], 10);
+  EXPECT_EQ(row.at(0, 0)[0], kBackground[0]);
+  EXPECT_EQ(row.at(2, 2)[0], kBackground[0]);
+  EXPECT_EQ(row.at(5, 3)[0], 20);
+  EXPECT_THROW(sideBySide({}), InputError);
+}
+
+}  // namespace
+}  // namespace exemplar
