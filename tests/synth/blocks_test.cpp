@@ -70,7 +70,10 @@ TEST(Blocks, TreeAndScanFindTheSame) {
       const SynthesisResult byTree = synthesizeBlocks(example, options);
       options.search = BlockSearch::Scan;
       const SynthesisResult byScan = synthesizeBlocks(example, options);
+      options.search = BlockSearch::Index;
+      const SynthesisResult byIndex = synthesizeBlocks(example, options);
       EXPECT_EQ(byTree.origins, byScan.origins);
+      EXPECT_EQ(byIndex.origins, byScan.origins);
       EXPECT_EQ(byTree.matches, byScan.matches);
     }
   }
@@ -78,7 +81,7 @@ TEST(Blocks, TreeAndScanFindTheSame) {
 
 TEST(Blocks, SameSeedSameBytesAtAnyNumberOfThreads) {
   const DistanceField example = balls({24, 24, 24}, 4, 1);
-  for (const BlockSearch search : {BlockSearch::Scan, BlockSearch::Tree}) {
+  for (const BlockSearch search : {BlockSearch::Index, BlockSearch::Scan, BlockSearch::Tree}) {
     BlocksOptions options = sized({32, 32, 24});
     options.search = search;
     SynthesisResult one, eight;
@@ -122,7 +125,7 @@ TEST(Blocks, AnySizeIsMade) {
 TEST(Blocks, AnExampleMayBeThinnerThanABlock) {
   for (const Vec3i& size : {Vec3i{24, 24, 3}, Vec3i{2, 24, 24}, Vec3i{1, 16, 1}}) {
     const DistanceField example = balls(size, 4, 1);
-    for (const BlockSearch search : {BlockSearch::Scan, BlockSearch::Tree}) {
+    for (const BlockSearch search : {BlockSearch::Index, BlockSearch::Scan, BlockSearch::Tree}) {
       BlocksOptions options = sized({26, 26, 10});
       options.search = search;
       const SynthesisResult result = synthesizeBlocks(example, options);
@@ -134,7 +137,7 @@ TEST(Blocks, AnExampleMayBeThinnerThanABlock) {
 
 TEST(Blocks, GroundStaysGround) {
   const DistanceField example = ground({32, 32, 24}, 1);
-  for (const BlockSearch search : {BlockSearch::Scan, BlockSearch::Tree}) {
+  for (const BlockSearch search : {BlockSearch::Index, BlockSearch::Scan, BlockSearch::Tree}) {
     BlocksOptions options = sized({48, 40, 24});
     options.search = search;
     const SynthesisResult result = synthesizeBlocks(example, options);
