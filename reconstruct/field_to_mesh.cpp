@@ -472,30 +472,38 @@ DistanceField repaired(const DistanceField& field) {
   crossings = dilated(std::move(crossings), kReach);
   for (std::size_t s = 0; s < marks.count(); ++s) marks.values()[s] &= crossings.values()[s];
   const Array3D<std::uint8_t> around = dilated(marks, kFar + 1);
-  TriangleMesh surface;
-  for (const Corners& corners : zeroSet(values)) {
-    if (!around[around.clamped(cellOf(corners[0]))]) continue;
-    const auto first = static_cast<std::uint32_t>(surface.positions.size());
-    surface.positions.insert(surface.positions.end(), corners.begin(), corners.end());
-    surface.triangles.push_back({first, first + 1, first + 2});
-  }
-  const ExampleSurface zero(surface);
+  // Layer by layer: the triangles of a jumping field are many, and looking them up takes memory.
+  constexpr int kLayers = 24;
+  const auto zeroTriangles = zeroSet(values);
   DistanceField result = field;
-  parallelFor(0, n.z, 1, [&](std::size_t k0, std::size_t k1) {
-    for (int k = static_cast<int>(k0); k < static_cast<int>(k1); ++k) {
-      for (int j = 0; j < n.y; ++j) {
-        for (int i = 0; i < n.x; ++i) {
-          if (!marks(i, j, k)) continue;
-          const auto nearest =
-              zero.closest({double(i), double(j), double(k)}, {.radius = double{kFar}});
-          const auto d = static_cast<float>((nearest ? nearest->distance : kFar) * field.voxelSize);
-          // The sign stays: -0 would count as outside.
-          result.values(i, j, k) =
-              values(i, j, k) < 0 ? -std::max(d, std::numeric_limits<float>::min()) : d;
+  for (int low = 0; low < n.z; low += kLayers) {
+    const int high = std::min(n.z, low + kLayers);
+    TriangleMesh surface;
+    for (const Corners& corners : zeroTriangles) {
+      const Vec3i cell = around.clamped(cellOf(corners[0]));
+      if (!around[cell] || cell.z < low - kFar - 2 || cell.z > high + kFar + 2) continue;
+      const auto first = static_cast<std::uint32_t>(surface.positions.size());
+      surface.positions.insert(surface.positions.end(), corners.begin(), corners.end());
+      surface.triangles.push_back({first, first + 1, first + 2});
+    }
+    const ExampleSurface zero(surface);
+    parallelFor(low, high, 1, [&](std::size_t k0, std::size_t k1) {
+      for (int k = static_cast<int>(k0); k < static_cast<int>(k1); ++k) {
+        for (int j = 0; j < n.y; ++j) {
+          for (int i = 0; i < n.x; ++i) {
+            if (!marks(i, j, k)) continue;
+            const auto nearest =
+                zero.closest({double(i), double(j), double(k)}, {.radius = double{kFar}});
+            const auto d =
+                static_cast<float>((nearest ? nearest->distance : kFar) * field.voxelSize);
+            // The sign stays: -0 would count as outside.
+            result.values(i, j, k) =
+                values(i, j, k) < 0 ? -std::max(d, std::numeric_limits<float>::min()) : d;
+          }
         }
       }
-    }
-  });
+    });
+  }
   return result;
 }
 
