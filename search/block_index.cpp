@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <set>
@@ -21,16 +20,14 @@ namespace {
 using kernels::kFeatures;
 using kernels::kWide;
 
-}  // namespace
-
 // Where found blocks go. `limit` is the largest sum that is still of interest.
-namespace {
 
 template <class Sum>
 constexpr Sum kNoLimit = std::numeric_limits<Sum>::max();
 
 template <class Sum>
 struct BestBlock {
+  static constexpr bool kOne = true;
   Sum limit = kNoLimit<Sum>;
   std::uint32_t position = kNoPosition;
 
@@ -46,6 +43,7 @@ struct BestBlock {
 
 template <class Sum>
 struct NearestBlocks {
+  static constexpr bool kOne = false;
   std::size_t count = 0;
   std::vector<std::pair<Sum, std::uint32_t>> heap{};
   Sum limit = kNoLimit<Sum>;
@@ -67,7 +65,7 @@ struct NearestBlocks {
 // Work in units of about a nanosecond; when the search has cost a quarter of a linear scan, the
 // scan takes over.
 struct Work {
-  static constexpr std::int64_t kNode = 40, kLeaf = 40, kBox = 400;
+  static constexpr std::int64_t kNode = 40, kLeaf = 40, kBox = 200, kFine = 800;
   static std::int64_t block(std::int64_t known) { return 60 + known / 15; }
   static std::int64_t scanned(std::int64_t known) { return 10 + known / 40; }
 };
@@ -96,8 +94,36 @@ class BlockIndexSearch {
       const bool says = features_.meanLow[c] > 0 || features_.meanHigh[c] < 32767;
       if (says) cells_[cellCount_++] = static_cast<std::uint8_t>(c);
     }
+    if (index.fineFeatures) describeFine(query);
     known_ = sumStore_[0].known();
     budget_ = index.positionCount * Work::scanned(known_) / 4;
+  }
+
+  // The features of the eighths of each cell that says anything.
+  void describeFine(const BlockQuery<Sample>& query) {
+    const CellLayout& layout = *index_.layout;
+    fine_.resize(static_cast<std::size_t>(cellCount_));
+    BlockQuery<Sample> cell{Array3D<Sample>(layout.size[0]), {}};
+    if (!query.known.empty()) cell.known = Array3D<std::uint8_t>(layout.size[0]);
+    for (int n = 0; n < cellCount_; ++n) {
+      const Vec3i first = layout.first[cells_[n]], size = layout.size[0];
+      for (int k = 0; k < size.z; ++k)
+        for (int j = 0; j < size.y; ++j) {
+          const std::size_t from = query.samples.index(first.x, first.y + j, first.z + k);
+          const std::size_t to = cell.samples.index(0, j, k);
+          std::copy_n(query.samples.data() + from, size.x, cell.samples.data() + to);
+          if (!query.known.empty())
+            std::copy_n(query.known.data() + from, size.x, cell.known.data() + to);
+        }
+      Fine& fine = fine_[static_cast<std::size_t>(n)];
+      fine.features = index_.fineFeatures->ofQuery(cell, index_.slopes);
+      fine.count = 0;
+      for (int c = 0; c < 8; ++c)
+        if (fine.features.meanLow[c] > 0 || fine.features.meanHigh[c] < 32767) {
+          fine.at[fine.count] = first + index_.fineLayout->first[c];
+          fine.cells[fine.count++] = static_cast<std::uint8_t>(c);
+        }
+    }
   }
 
   const BlockSum<Sample>& sums(int source) const { return sumStore_[sums_[source]]; }
@@ -118,137 +144,56 @@ class BlockIndexSearch {
   template <class Found>
   void run(Found& found) {
     updateBound(found.limit);
-    if (bound_ == kernels::kLargestBound) dive(found);
-    struct Open {
-      std::uint32_t bound, node, lowest;
-      int level;
-    };
-    // Fifteen children wait at each level while the sixteenth is worked on.
-    Open stack[kWide * 10];
-    int open = 0;
-    stack[open++] = {0, 0, 0, static_cast<int>(index_.levels.size()) - 1};
-    while (open > 0) {
-      const Open at = stack[--open];
-      if (at.bound > bound_ || found.hopeless(at.lowest)) continue;
-      if (budget_ < 0) {
-        scan(found);
-        return;
+    if constexpr (Found::kOne)
+      if (bound_ == kernels::kLargestBound) {
+        boxCount_ = 0;
+        addBox(likelyEntry(index_.tree, features_), 0);
+        workOnBoxes(found);
       }
-      ++statistics_.nodes;
-      budget_ -= Work::kNode;
-      const IndexNode& node = index_.levels[at.level][at.node];
-      alignas(64) std::uint32_t gaps[kWide];
-      std::uint32_t within = kernels_.boxGaps(node.boxes, features_, bound_, gaps);
-      within &= Data::there(at.node, index_.childrenAt(at.level));
-      const std::uint32_t first = at.node * kWide;
-      int order[kWide], count = 0;
-      for (; within != 0; within &= within - 1) {
-        const int c = std::countr_zero(within);
-        if (found.hopeless(node.lowest[c])) continue;
-        if (at.level == 0)
-          order[count++] = c;
-        else
-          insert(gaps, order, count, c);
-      }
-      if (at.level == 0) {
-        searchLeaves(first, order, count, found);
-        continue;
-      }
-      // The nearest on top.
-      while (count > 0) {
-        const std::uint32_t c = static_cast<std::uint32_t>(order[--count]);
-        prefetch(index_.levels[at.level - 1][first + c]);
-        stack[open++] = {gaps[c], first + c, node.lowest[c], at.level - 1};
-      }
-    }
+    Visitor<Found> visitor{*this, found};
+    searchTree(index_.tree, features_, visitor);
+    if (budget_ < 0) scan(found);
   }
 
   BlockIndexStatistics statistics_;
 
  private:
-  // A first limit: the nearest entry of the leaf that the nearest children lead to.
+  // What the tree's search asks and finds.
   template <class Found>
-  void dive(Found& found) {
-    alignas(64) std::uint32_t gaps[kWide];
-    const auto nearest = [&](std::uint32_t there) {
-      int best = std::countr_zero(there);
-      for (; there != 0; there &= there - 1)
-        if (const int c = std::countr_zero(there); gaps[c] < gaps[best]) best = c;
-      return static_cast<std::uint32_t>(best);
-    };
-    std::uint32_t node = 0;
-    for (int level = static_cast<int>(index_.levels.size()) - 1; level >= 0; --level) {
-      kernels_.boxGaps(index_.levels[level][node].boxes, features_, bound_, gaps);
-      node = node * kWide + nearest(Data::there(node, index_.childrenAt(level)));
+  struct Visitor {
+    BlockIndexSearch& search;
+    Found& found;
+
+    std::uint32_t bound() const { return search.bound_; }
+    bool hopeless(std::uint32_t lowest) const { return found.hopeless(lowest); }
+    bool may(int, std::size_t, std::uint32_t) const { return true; }
+    bool node() {
+      ++search.statistics_.nodes;
+      search.boxCount_ = 0;
+      return (search.budget_ -= Work::kNode) >= 0;
     }
-    const IndexLeaf& leaf = index_.leaves[node];
-    kernels_.meanGaps(leaf.means, features_, bound_, gaps);
-    kernels_.detailGaps(index_.details[node], features_, bound_, gaps);
-    boxCount_ = 0;
-    const std::uint32_t c = nearest(Data::there(node, index_.entryCount));
-    addBox(leaf.entry[c], gaps[c]);
-    if (index_.side == 1)
-      offer(leaf.entry[c], found);
-    else
-      searchBox(boxes_[0], found);
-  }
+    void leaves(int count) {
+      search.statistics_.leaves += count;
+      search.budget_ -= count * Work::kLeaf;
+    }
+    void add(std::uint32_t entry, std::uint32_t gap) { search.addBox(entry, gap); }
+    void flush() { search.workOnBoxes(found); }
+  };
 
-  template <class T>
-  static void prefetch(const T& what) {
-    const char* at = reinterpret_cast<const char*>(&what);
-    for (std::size_t byte = 0; byte < sizeof(T); byte += 64) __builtin_prefetch(at + byte);
-  }
-
-  static void insert(const std::uint32_t* gaps, int* order, int& count, int c) {
-    int i = count++;
-    for (; i > 0 && gaps[order[i - 1]] > gaps[c]; --i) order[i] = order[i - 1];
-    order[i] = c;
-  }
-
-  // Sums of squared gaps above this belong to blocks beyond the limit.
+  // Sums of squared gaps above these belong to blocks beyond the limit.
   void updateBound(Sum limit) {
-    const double scale = index_.features->scale();
-    const double bound = static_cast<double>(limit) * scale * scale * (1 + 1e-9);
-    bound_ =
-        bound < kernels::kLargestBound ? static_cast<std::uint32_t>(bound) : kernels::kLargestBound;
+    const auto bound = [&](const CellFeatures& features) {
+      return static_cast<double>(limit) * features.scale() * features.scale() * (1 + 1e-9);
+    };
+    bound_ = static_cast<std::uint32_t>(
+        std::min<double>(bound(*index_.features), kernels::kLargestBound));
+    if (index_.fineFeatures)
+      fineBound_ =
+          static_cast<std::uint64_t>(std::min(bound(*index_.fineFeatures), kLargestFineBound));
   }
 
-  // Leaves are seldom in a cache. So all of a node are asked for first, then their means are looked
-  // at, and the details of those that are left are asked for before the first of them is looked at;
-  // so it goes on with the boxes that these leave.
   template <class Found>
-  void searchLeaves(std::uint32_t first, const int* order, int count, Found& found) {
-    struct Left {
-      std::uint32_t leaf, within;
-      alignas(64) std::uint32_t gaps[kWide];
-    };
-    Left left[kWide];
-    int leftCount = 0;
-    for (int o = 0; o < count; ++o)
-      prefetch(index_.leaves[first + static_cast<std::uint32_t>(order[o])].means);
-    statistics_.leaves += count;
-    budget_ -= count * Work::kLeaf;
-    for (int o = 0; o < count; ++o) {
-      Left& here = left[leftCount];
-      here.leaf = first + static_cast<std::uint32_t>(order[o]);
-      here.within =
-          kernels_.meanGaps(index_.leaves[here.leaf].means, features_, bound_, here.gaps) &
-          Data::there(here.leaf, index_.entryCount);
-      if (here.within == 0) continue;
-      prefetch(index_.details[here.leaf]);
-      prefetch(index_.leaves[here.leaf].entry);
-      ++leftCount;
-    }
-    boxCount_ = 0;
-    for (int l = 0; l < leftCount; ++l) {
-      Left& here = left[l];
-      here.within &= kernels_.detailGaps(index_.details[here.leaf], features_, bound_, here.gaps);
-      const std::uint32_t* entry = index_.leaves[here.leaf].entry;
-      for (; here.within != 0; here.within &= here.within - 1) {
-        const int c = std::countr_zero(here.within);
-        if (!found.hopeless(entry[c])) addBox(entry[c], here.gaps[c]);
-      }
-    }
+  void workOnBoxes(Found& found) {
     // The nearest first: each may lower the limit for those behind it.
     std::uint64_t nearest[kWide * kWide];
     for (int b = 0; b < boxCount_; ++b)
@@ -313,17 +258,54 @@ class BlockIndexSearch {
         }
       kernels_.numberGaps(numbers, width, features_, cells_, cellCount_, gaps);
     }
+    std::uint32_t within = 0;
+    for (int p = 0; p < 8; ++p) within |= static_cast<std::uint32_t>(gaps[p] <= bound_) << p;
+    if (within != 0 && index_.fineFeatures) within = searchFine(source, first, within, gaps);
     int order[8], count = 0;
-    for (int p = 0; p < 8; ++p)
-      if (gaps[p] <= bound_) insert(gaps, order, count, p);
+    for (; within != 0; within &= within - 1)
+      insertByGap(gaps, order, count, std::countr_zero(within));
     for (int o = 0; o < count; ++o) {
       const int p = order[o];
-      if (gaps[p] > bound_) return;
+      if (!index_.fineFeatures && gaps[p] > bound_) return;
       const Vec3i position = first + Vec3i{p & 1, p >> 1 & 1, p >> 2};
       if (min(position, source.positions - Vec3i{1, 1, 1}) != position) continue;
       const auto at = source.offset + static_cast<std::uint32_t>(source.samples.index(position));
       if (index_.live[at]) offer(at, found);
     }
+  }
+
+  // Which of the positions `within` a box are left by the features of the cells' eighths; their
+  // gaps, in units that only serve to sort, take the place of the coarse ones.
+  std::uint32_t searchFine(const IndexedSource<Sample>& source, const Vec3i& first,
+                           std::uint32_t within, std::uint32_t* gaps) {
+    budget_ -= Work::kFine;
+    const auto width =
+        static_cast<std::int16_t>((1 << index_.fineShift) / 2 + index_.fineFeatures->margin());
+    const auto bricks = [&](const Fine& fine, const kernels::Brick** to) {
+      for (int c = 0; c < fine.count; ++c) {
+        const Vec3i at = first + fine.at[c];
+        to[c] = &source.fineBricks(at.x / 2, at.y / 2, at.z / 2);
+        prefetch(*to[c]);
+      }
+    };
+    const kernels::Brick* now[8];
+    const kernels::Brick* next[8];
+    std::uint64_t sums[8] = {};
+    if (!fine_.empty()) bricks(fine_[0], next);
+    for (std::size_t n = 0; n < fine_.size() && within != 0; ++n) {
+      std::copy_n(next, 8, now);
+      if (n + 1 < fine_.size()) bricks(fine_[n + 1], next);
+      std::uint32_t parts[8];
+      kernels_.brickGaps(now, index_.fineShift, width, fine_[n].features, fine_[n].cells,
+                         fine_[n].count, parts);
+      for (int p = 0; p < 8; ++p) {
+        sums[p] += parts[p];
+        if (sums[p] > fineBound_) within &= ~(std::uint32_t{1} << p);
+      }
+    }
+    for (int p = 0; p < 8; ++p)
+      gaps[p] = static_cast<std::uint32_t>(std::min<std::uint64_t>(sums[p] >> 4, 0xffffffff));
+    return within;
   }
 
   template <class Found>
@@ -361,6 +343,17 @@ class BlockIndexSearch {
   std::vector<std::size_t> sums_;
   std::int64_t known_ = 0, budget_ = 0;
   std::uint32_t bound_ = 0;
+  // No sum over the eighths of all cells is larger.
+  static constexpr double kLargestFineBound = 8.0 * kernels::kLargestBound;
+  std::uint64_t fineBound_ = 0;
+
+  struct Fine {
+    kernels::QueryFeatures features;
+    Vec3i at[8];  // of each of its cells that says anything, from the block's first sample
+    std::uint8_t cells[8];
+    int count;
+  };
+  std::vector<Fine> fine_;  // of each of cells_
 };
 
 namespace {
@@ -527,11 +520,9 @@ std::int64_t BlockIndex<Sample>::positions() const {
 }
 template <class Sample>
 std::int64_t BlockIndex<Sample>::bytes() const {
-  std::size_t bytes =
-      data_->leaves.size() * sizeof(IndexLeaf) + data_->live.bytes() + data_->allowedBits.bytes();
-  for (const auto& level : data_->levels) bytes += level.size() * sizeof(IndexNode);
+  std::size_t bytes = data_->tree.bytes() + data_->live.bytes() + data_->allowedBits.bytes();
   for (const IndexedSource<Sample>& source : data_->sources)
-    bytes += source.bricks.count() * sizeof(kernels::Brick);
+    bytes += (source.bricks.count() + source.fineBricks.count()) * sizeof(kernels::Brick);
   return static_cast<std::int64_t>(bytes);
 }
 

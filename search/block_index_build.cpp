@@ -1,13 +1,10 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
-#include <bit>
+#include <atomic>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -22,9 +19,10 @@ namespace exemplar {
 
 namespace {
 
-constexpr int kDims = 8 * kernels::kFeatures;
+// Blocks of cells from this many samples on are worth another level of features before they are
+// summed.
+constexpr std::int64_t kSmallestFineCell = 1000;
 using kernels::kFeatures;
-using kernels::kWide;
 using Numbers = CellFeatures::Numbers;
 
 EXEMPLAR_MULTIVERSION void orInto(const std::uint8_t* in, std::uint8_t* out, std::size_t count) {
@@ -170,8 +168,12 @@ void BlockIndexData<Sample>::ranges(const CellArrays& cells, std::uint32_t entry
   const int s = sourceOf(entry);
   const IndexedSource<Sample>& source = sources[s];
   const Vec3i first = source.samples.ijk(entry - source.offset);
-  std::fill_n(low, kDims, std::int16_t{32767});
-  std::fill_n(high, kDims, std::int16_t{0});
+  std::fill_n(low, FeatureTree::kFeatures, std::int16_t{32767});
+  std::fill_n(high, FeatureTree::kFeatures, std::int16_t{0});
+  // Where the features of each cell stand among a block's.
+  const auto place = [](int cell, int f) {
+    return f == 0 ? cell : FeatureTree::kMeans + kernels::detail(cell, f - 1);
+  };
   const Vec3i last = min(first + Vec3i{side, side, side}, source.positions);
   for (int k = first.z; k < last.z; ++k)
     for (int j = first.y; j < last.y; ++j)
@@ -181,8 +183,8 @@ void BlockIndexData<Sample>::ranges(const CellArrays& cells, std::uint32_t entry
           if (!layout->there(c)) continue;
           const Numbers& numbers = cells[s][cellArray(c)][Vec3i{i, j, k} + layout->first[c]];
           for (int f = 0; f < kFeatures; ++f) {
-            std::int16_t& l = low[c * kFeatures + f];
-            std::int16_t& h = high[c * kFeatures + f];
+            std::int16_t& l = low[place(c, f)];
+            std::int16_t& h = high[place(c, f)];
             l = std::min(l, numbers[f]);
             h = std::max(h, numbers[f]);
           }
@@ -190,180 +192,60 @@ void BlockIndexData<Sample>::ranges(const CellArrays& cells, std::uint32_t entry
       }
   for (int c = 0; c < 8; ++c)
     if (!layout->there(c))
-      for (int f = 0; f < kFeatures; ++f) low[c * kFeatures + f] = high[c * kFeatures + f] = 0;
+      for (int f = 0; f < kFeatures; ++f) low[place(c, f)] = high[place(c, f)] = 0;
 }
 
 template <class Sample>
-void BlockIndexData<Sample>::packBricks(IndexedSource<Sample>& source,
-                                        const Array3D<Numbers>& numbers) {
-  const Vec3i size = numbers.size();
-  source.bricks = Array3D<kernels::Brick>({(size.x + 1) / 2, (size.y + 1) / 2, (size.z + 1) / 2});
-  const Vec3i last = size - Vec3i{1, 1, 1};
-  const int half = (1 << brickShift) / 2;
-  parallelFor(0, source.bricks.count(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      kernels::Brick& brick = source.bricks.data()[b];
-      const Vec3i first = source.bricks.ijk(b) * 2;
-      for (int f = 0; f < kFeatures; ++f) {
-        int number[8], low = 32767, high = 0;
-        for (int p = 0; p < 8; ++p) {
-          number[p] = numbers[min(first + Vec3i{p & 1, p >> 1 & 1, p >> 2}, last)][f];
-          low = std::min(low, number[p]);
-          high = std::max(high, number[p]);
-        }
-        const int center = (low + high) / 2;
-        brick.center[f] = static_cast<std::int16_t>(center);
-        for (int p = 0; p < 8; ++p)
-          brick.difference[p][f] =
-              static_cast<std::uint8_t>(((number[p] - center + half) >> brickShift) + 128);
+void BlockIndexData<Sample>::packBricks(const std::vector<Array3D<Numbers>>& numbers,
+                                        Array3D<kernels::Brick> IndexedSource<Sample>::*bricks,
+                                        int& shift) {
+  // The largest difference from a brick's middle decides the step of all.
+  const auto forBricks = [](const Array3D<Numbers>& of, const auto& visit) {
+    const Vec3i size = of.size(), last = size - Vec3i{1, 1, 1};
+    const Vec3i count{(size.x + 1) / 2, (size.y + 1) / 2, (size.z + 1) / 2};
+    parallelFor(0, static_cast<std::size_t>(count.z), 1, [&](std::size_t begin, std::size_t end) {
+      for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
+        for (int j = 0; j < count.y; ++j)
+          for (int i = 0; i < count.x; ++i) {
+            std::array<const Numbers*, 8> corner;
+            for (int p = 0; p < 8; ++p)
+              corner[p] =
+                  &of[min(Vec3i{2 * i + (p & 1), 2 * j + (p >> 1 & 1), 2 * k + (p >> 2)}, last)];
+            for (int f = 0; f < kFeatures; ++f) {
+              int low = 32767, high = 0;
+              for (const Numbers* n : corner) {
+                low = std::min<int>(low, (*n)[f]);
+                high = std::max<int>(high, (*n)[f]);
+              }
+              visit(Vec3i{i, j, k}, f, (low + high) / 2, high - low, corner);
+            }
+          }
+    });
+    return count;
+  };
+  std::atomic<int> widest = 0;
+  for (const Array3D<Numbers>& of : numbers)
+    forBricks(of, [&](const Vec3i&, int, int, int range, const auto&) {
+      int seen = widest.load(std::memory_order_relaxed);
+      while (range > seen && !widest.compare_exchange_weak(seen, range)) {
       }
-    }
-  });
-}
-
-// Sorts the entries so that aligned groups of 16^k leaves are nodes, and fills leaves and nodes.
-namespace {
-
-class Splitter {
- public:
-  Splitter(const std::vector<std::int16_t>& centers, std::vector<std::uint32_t>& order)
-      : centers_(centers), order_(order), keys_(order.size()) {}
-
-  void split(std::size_t begin, std::size_t end) {
-    const std::size_t count = end - begin;
-    if (count <= kWide) return;
-    // Cut at the largest power of two of full leaves that leaves something on the right.
-    const std::size_t leaves = (count + kWide - 1) / kWide;
-    const std::size_t left = std::bit_ceil(leaves) / 2 * kWide;
-    const int axis = widest(begin, end);
-    for (std::size_t i = begin; i < end; ++i)
-      keys_[i] = {centers_[std::size_t{order_[i]} * kDims + static_cast<std::size_t>(axis)],
-                  order_[i]};
-    const auto at = [this](std::size_t i) {
-      return keys_.begin() + static_cast<std::ptrdiff_t>(i);
-    };
-    std::nth_element(at(begin), at(begin + left), at(end));
-    for (std::size_t i = begin; i < end; ++i) order_[i] = keys_[i].second;
-    if (count > 8192) {
-      tbb::parallel_invoke([&] { split(begin, begin + left); }, [&] { split(begin + left, end); });
-    } else {
-      split(begin, begin + left);
-      split(begin + left, end);
-    }
+    });
+  shift = 0;
+  while ((widest / 2 >> shift) + 2 > 127) ++shift;
+  const int half = (1 << shift) / 2;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const Vec3i size = numbers[s].size();
+    Array3D<kernels::Brick>& to = sources[s].*bricks;
+    to = Array3D<kernels::Brick>({(size.x + 1) / 2, (size.y + 1) / 2, (size.z + 1) / 2});
+    forBricks(numbers[s], [&](const Vec3i& at, int f, int center, int, const auto& corner) {
+      kernels::Brick& brick = to[at];
+      brick.center[f] = static_cast<std::int16_t>(center);
+      for (int p = 0; p < 8; ++p)
+        brick.difference[p][f] =
+            static_cast<std::uint8_t>((((*corner[p])[f] - center + half) >> shift) + 128);
+    });
   }
-
- private:
-  // The dimension of largest variance, over at most 256 entries.
-  int widest(std::size_t begin, std::size_t end) const {
-    const std::size_t step = std::max<std::size_t>(1, (end - begin) / 256);
-    std::int64_t sums[kDims] = {}, squares[kDims] = {}, count = 0;
-    for (std::size_t i = begin; i < end; i += step, ++count) {
-      const std::int16_t* center = centers_.data() + std::size_t{order_[i]} * kDims;
-      for (int d = 0; d < kDims; ++d) {
-        sums[d] += center[d];
-        squares[d] += std::int64_t{center[d]} * center[d];
-      }
-    }
-    int best = 0;
-    std::int64_t largest = -1;
-    for (int d = 0; d < kDims; d += kFeatures)
-      if (const std::int64_t v = count * squares[d] - sums[d] * sums[d]; v > largest) {
-        largest = v;
-        best = d;
-      }
-    return best;
-  }
-
-  const std::vector<std::int16_t>& centers_;
-  std::vector<std::uint32_t>& order_;
-  std::vector<std::pair<std::int16_t, std::uint32_t>> keys_;
-};
-
-// The box, in the space of means, around all blocks below a child of a node.
-struct Box {
-  int low[kernels::kMeans], high[kernels::kMeans];
-  std::uint32_t lowest = kNoPosition;
-  Box() {
-    std::fill_n(low, kernels::kMeans, 32767);
-    std::fill_n(high, kernels::kMeans, 0);
-  }
-};
-
-// The shift at which a range of numbers fits into eight bits, rounding up included.
-int shiftFor(int range) {
-  int shift = 0;
-  while ((range >> shift) + 1 > 255) ++shift;
-  return shift;
 }
-
-std::vector<IndexNode> nodesOver(const std::vector<Box>& boxes) {
-  std::vector<IndexNode> nodes((boxes.size() + kWide - 1) / kWide);
-  parallelFor(0, nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      IndexNode& node = nodes[n];
-      const std::size_t first = n * kWide;
-      const std::size_t count = std::min<std::size_t>(kWide, boxes.size() - first);
-      int base[kernels::kMeans], range = 0;
-      for (int d = 0; d < kernels::kMeans; ++d) {
-        int top = 0;
-        base[d] = 32767;
-        for (std::size_t c = 0; c < count; ++c) {
-          base[d] = std::min(base[d], boxes[first + c].low[d]);
-          top = std::max(top, boxes[first + c].high[d]);
-        }
-        range = std::max(range, top - base[d]);
-      }
-      const int shift = shiftFor(range);
-      node.boxes.shift = static_cast<std::uint8_t>(shift);
-      for (int d = 0; d < kernels::kMeans; ++d) {
-        node.boxes.base[d] = static_cast<std::int16_t>(base[d]);
-        for (std::size_t c = 0; c < kWide; ++c) {
-          const Box& box = boxes[first + std::min(c, count - 1)];
-          node.boxes.low[d / 2][c][d % 2] =
-              static_cast<std::uint8_t>((box.low[d] - base[d]) >> shift);
-          node.boxes.high[d / 2][c][d % 2] =
-              static_cast<std::uint8_t>((box.high[d] - base[d] + (1 << shift) - 1) >> shift);
-          node.lowest[c] = box.lowest;
-        }
-      }
-    }
-  });
-  return nodes;
-}
-
-std::vector<Box> boxesOver(const std::vector<Box>& below) {
-  std::vector<Box> boxes((below.size() + kWide - 1) / kWide);
-  for (std::size_t c = 0; c < below.size(); ++c) {
-    Box& box = boxes[c / kWide];
-    for (int d = 0; d < kernels::kMeans; ++d) {
-      box.low[d] = std::min(box.low[d], below[c].low[d]);
-      box.high[d] = std::max(box.high[d], below[c].high[d]);
-    }
-    box.lowest = std::min(box.lowest, below[c].lowest);
-  }
-  return boxes;
-}
-
-// Stores the ranges of up to sixteen entries, one after another in `low` and `high`, in dimension
-// `d` of a leaf; `shift` is the leaf's.
-template <int dimensions>
-void pack(const int* low, const int* high, std::size_t count, int margin, int d,
-          kernels::Points<dimensions>& points) {
-  const int shift = points.shift, half = (1 << shift) / 2;
-  int base = 32767, width = 0;
-  for (std::size_t c = 0; c < count; ++c) base = std::min(base, (low[c] + high[c]) / 2);
-  for (std::size_t c = 0; c < kWide; ++c) {
-    const std::size_t from = std::min(c, count - 1);
-    const int value = ((low[from] + high[from]) / 2 - base + half) >> shift;
-    const int stored = base + (value << shift);
-    points.value[d / 2][c][d % 2] = static_cast<std::uint8_t>(value);
-    width = std::max({width, stored - low[from], high[from] - stored});
-  }
-  points.base[d] = static_cast<std::int16_t>(base);
-  points.width[d] = static_cast<std::int16_t>(std::min(32767, width + margin));
-}
-
-}  // namespace
 
 template <class Sample>
 void BlockIndexData<Sample>::build(const BlockIndexOptions& options) {
@@ -404,94 +286,31 @@ void BlockIndexData<Sample>::build(const BlockIndexOptions& options) {
             entries.push_back(source.offset +
                               static_cast<std::uint32_t>(source.samples.index(i, j, k)));
         }
-  std::vector<std::uint32_t> order(entries.size());
-  std::iota(order.begin(), order.end(), 0u);
-  {
-    std::vector<std::int16_t> centers(entries.size() * kDims);
-    parallelFor(0, entries.size(), 1024, [&](std::size_t begin, std::size_t end) {
-      std::int16_t l[kDims], h[kDims];
-      for (std::size_t e = begin; e < end; ++e) {
-        ranges(cells, entries[e], l, h);
-        for (int d = 0; d < kDims; ++d)
-          centers[e * kDims + static_cast<std::size_t>(d)] =
-              static_cast<std::int16_t>((l[d] + h[d]) / 2);
-      }
-    });
-    Splitter(centers, order).split(0, order.size());
-  }
-
-  entryCount = entries.size();
-  const std::size_t leafCount = (entries.size() + kWide - 1) / kWide;
-  leaves.resize(leafCount);
-  details.resize(leafCount);
-  std::vector<Box> boxes(leafCount);
-  const int margin = features->margin();
-  parallelFor(0, leafCount, 64, [&](std::size_t begin, std::size_t end) {
-    std::int16_t l[kWide][kDims], h[kWide][kDims];
-    int low_[kDims][kWide], high_[kDims][kWide];
-    for (std::size_t n = begin; n < end; ++n) {
-      IndexLeaf& leaf = leaves[n];
-      const std::size_t first = n * kWide;
-      const std::size_t count = std::min<std::size_t>(kWide, order.size() - first);
-      for (std::size_t c = 0; c < kWide; ++c)
-        leaf.entry[c] = c < count ? entries[order[first + c]] : kNoPosition;
-      std::sort(leaf.entry, leaf.entry + count);
-      boxes[n].lowest = leaf.entry[0];
-      for (std::size_t c = 0; c < count; ++c) ranges(cells, leaf.entry[c], l[c], h[c]);
-      int meanRange = 0, detailRange = 0;
-      for (int d = 0; d < kDims; ++d) {
-        int least = 32767, most = 0;
-        for (std::size_t c = 0; c < count; ++c) {
-          low_[d][c] = l[c][d];
-          high_[d][c] = h[c][d];
-          least = std::min(least, (l[c][d] + h[c][d]) / 2);
-          most = std::max(most, (l[c][d] + h[c][d]) / 2);
-        }
-        int& range = d % kFeatures == 0 ? meanRange : detailRange;
-        range = std::max(range, most - least);
-      }
-      leaf.means.shift = static_cast<std::uint8_t>(shiftFor(meanRange));
-      details[n].shift = static_cast<std::uint8_t>(shiftFor(detailRange));
-      for (int c = 0; c < 8; ++c)
-        for (int f = 0; f < kFeatures; ++f) {
-          const int d = c * kFeatures + f;
-          if (f == 0) {
-            pack(low_[d], high_[d], count, margin, c, leaf.means);
-            boxes[n].low[c] = std::max(0, *std::min_element(low_[d], low_[d] + count) - margin);
-            boxes[n].high[c] =
-                std::min(32767, *std::max_element(high_[d], high_[d] + count) + margin);
-          } else {
-            pack(low_[d], high_[d], count, margin, kernels::detail(c, f - 1), details[n]);
-          }
-        }
-    }
-  });
-  std::vector<Box> below = std::move(boxes);
-  do {
-    levels.push_back(nodesOver(below));
-    below = boxesOver(below);
-  } while (below.size() > 1);
+  tree = FeatureTree(
+      entries,
+      [&](std::uint32_t entry, std::int16_t* l, std::int16_t* h) { ranges(cells, entry, l, h); },
+      features->margin());
 
   if (side == 2) {
     for (int c = 0; c < 8; ++c)
       for (int axis = 0; axis < 3; ++axis) aligned = aligned && layout->first[c][axis] % 2 == 0;
-    // The largest difference from a brick's middle decides the step of all.
-    int largest = 1;
-    for (const auto& ofSource : cells) {
-      const Array3D<Numbers>& numbers = ofSource[0];
-      const Vec3i size = numbers.size();
-      for (int k = 0; k < size.z; ++k)
-        for (int j = 0; j < size.y; ++j)
-          for (int i = 0; i < size.x; ++i) {
-            // Against the brick's first number, which is at least as far as the middle from one of
-            // them.
-            const Numbers& a = numbers(i & ~1, j & ~1, k & ~1);
-            const Numbers& b = numbers(i, j, k);
-            for (int f = 0; f < kFeatures; ++f) largest = std::max(largest, std::abs(a[f] - b[f]));
-          }
+    std::vector<Array3D<Numbers>> numbers;
+    for (auto& ofSource : cells) numbers.push_back(std::move(ofSource[0]));
+    packBricks(numbers, &IndexedSource<Sample>::bricks, brickShift);
+
+    const Vec3i cell = layout->size[0];
+    fineLayout.emplace(cell, true);
+    bool fine = aligned && volume(cell) >= kSmallestFineCell;
+    for (int c = 0; c < 8; ++c)
+      for (int axis = 0; axis < 3; ++axis)
+        fine = fine && fineLayout->there(c) && fineLayout->first[c][axis] % 2 == 0;
+    if (fine) {
+      fineFeatures.emplace(*fineLayout, std::span<const Array3D<Sample>* const>(arrays), low, high);
+      numbers.clear();
+      for (const IndexedSource<Sample>& source : sources)
+        numbers.push_back(fineFeatures->ofSource(source.samples, fineLayout->size[0]));
+      packBricks(numbers, &IndexedSource<Sample>::fineBricks, fineShift);
     }
-    while ((largest >> brickShift) + 2 > 127) ++brickShift;
-    for (std::size_t s = 0; s < sources.size(); ++s) packBricks(sources[s], cells[s][0]);
   }
 }
 

@@ -173,14 +173,13 @@ class Field {
     const PatchTree tree(source_, {options_.allowed, options_.sourceWeight, windowed_});
     const float norm = target_.largestNorm(tree.center());
     return forTiles("matching", 0, 1, [&](const Vec3i& first, const Vec3i& last, float* gathered) {
-      float projection[PatchTree::kWide];
       for (int k = first.z; k < last.z; ++k)
         for (int j = first.y; j < last.y; ++j)
           for (int i = first.x; i < last.x; ++i) {
             const Vec3i patch{i, j, k};
             const std::uint32_t index = target_.index(patchPosition(patch));
             target_.gather(index, gathered);
-            tree.project(target_, index, projection);
+            const kernels::QueryFeatures features = tree.features(target_, index, norm);
             const Window limits = window(patch);
             Candidate best = kNothing;
             // The neighbours' matches, moved along, are first upper bounds.
@@ -192,9 +191,9 @@ class Field {
               offer(gathered, p, limits, best);
             }
             offerStart(gathered, patch, limits, best);
-            best = tree.nearest(gathered, projection, norm, best, windowed_ ? &limits : nullptr);
+            best = tree.nearest(gathered, features, best, windowed_ ? &limits : nullptr);
             // A window without an allowed position does not count.
-            if (best.index == kNone) best = tree.nearest(gathered, projection, norm, best, nullptr);
+            if (best.index == kNone) best = tree.nearest(gathered, features, best, nullptr);
             best_[patch] = best;
           }
     });

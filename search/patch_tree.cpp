@@ -3,8 +3,6 @@
 
 #include "search/patch_tree.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -24,8 +22,9 @@ namespace exemplar {
 namespace {
 
 constexpr int kLanes = 8;
-constexpr int kWide = PatchTree::kWide;
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr int kDirections = PatchTree::kDirections;
+constexpr double kHalf = 16384;   // the number of projection 0
+constexpr double kReach = 16000;  // of the largest projection
 // Half a unit in the last place of 1.
 constexpr float kUlp = 0x1p-24f;
 
@@ -68,40 +67,15 @@ EXEMPLAR_MULTIVERSION float sumPatch(const float* values, const float* gathered,
 EXEMPLAR_MULTIVERSION void projectPatch(const float* values, const std::uint32_t* rows,
                                         std::size_t count, int length, float center,
                                         const float* basis, float* products) {
-  float total[kWide] = {};
+  float total[kDirections] = {};
   for (std::size_t r = 0; r < count; ++r) {
-    float row[kWide] = {};
+    float row[kDirections] = {};
     const float* a = values + rows[r];
-    for (int i = 0; i < length; ++i, basis += kWide)
-      for (int b = 0; b < kWide; ++b) row[b] += (a[i] - center) * basis[b];
-    for (int b = 0; b < kWide; ++b) total[b] += row[b];
+    for (int i = 0; i < length; ++i, basis += kDirections)
+      for (int b = 0; b < kDirections; ++b) row[b] += (a[i] - center) * basis[b];
+    for (int b = 0; b < kDirections; ++b) total[b] += row[b];
   }
-  for (int b = 0; b < kWide; ++b) products[b] = total[b];
-}
-
-// Squared distance from q to each of sixteen boxes.
-EXEMPLAR_MULTIVERSION void boxBounds(const float (*low)[kWide], const float (*high)[kWide],
-                                     const float* q, float* bounds) {
-  float sum[kWide] = {};
-  for (int d = 0; d < kWide; ++d)
-    for (int c = 0; c < kWide; ++c) {
-      const float below = low[d][c] - q[d], above = q[d] - high[d][c];
-      float gap = below > above ? below : above;
-      gap = gap > 0 ? gap : 0;
-      sum[c] += gap * gap;
-    }
-  for (int c = 0; c < kWide; ++c) bounds[c] = sum[c];
-}
-
-// Squared distance from q to each of sixteen points.
-EXEMPLAR_MULTIVERSION void pointBounds(const float (*value)[kWide], const float* q, float* bounds) {
-  float sum[kWide] = {};
-  for (int d = 0; d < kWide; ++d)
-    for (int c = 0; c < kWide; ++c) {
-      const float gap = value[d][c] - q[d];
-      sum[c] += gap * gap;
-    }
-  for (int c = 0; c < kWide; ++c) bounds[c] = sum[c];
+  for (int b = 0; b < kDirections; ++b) products[b] = total[b];
 }
 
 }  // namespace
@@ -211,7 +185,7 @@ std::vector<std::uint64_t> PatchSet::hashes() const {
 }
 
 PatchTree::PatchTree(const PatchSet& set, const PatchChoice& choice)
-    : set_(set), weight_(choice.weight) {
+    : set_(set), weight_(choice.weight), windowed_(choice.windowed) {
   const Vec3i positions = set.positions();
   std::vector<std::uint32_t> points;
   for (int k = 0; k < positions.z; ++k)
@@ -219,7 +193,6 @@ PatchTree::PatchTree(const PatchSet& set, const PatchChoice& choice)
       for (int i = 0; i < positions.x; ++i)
         if (!choice.allowed || (*choice.allowed)(i, j, k)) points.push_back(set.index({i, j, k}));
   if (points.empty()) return;
-  lowest_ = points.front();
 
   if (!choice.windowed) {
     // Of equal patches at equal weight only the lowest index can be an answer.
@@ -244,18 +217,62 @@ PatchTree::PatchTree(const PatchSet& set, const PatchChoice& choice)
   }
 
   findDirections(points);
-  points_ = std::move(points);
   center_ = set.center();
   norm_ = set.largestNorm(center_);
-  std::vector<float> values(points_.size() * kWide);
-  parallelFor(0, points_.size(), 256, [&](std::size_t begin, std::size_t end) {
+  // Projections as numbers. The largest decides the scale; a target's may be larger and count as
+  // the largest, which takes nobody's distance beyond what it was.
+  std::vector<float> projections(points.size() * kDirections);
+  parallelFor(0, points.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
-      set.project(basis_.data(), center_, points_[p], values.data() + p * kWide);
+      set.project(basis_.data(), center_, points[p], projections.data() + p * kDirections);
   });
-  permutation_.resize(points_.size());
-  std::iota(permutation_.begin(), permutation_.end(), 0u);
-  split(0, points_.size(), values);
-  build(values);
+  // (Patches that are all the same have none to speak of.)
+  float largest = std::max(1e-30f, 1e-4f * norm_);
+  for (float v : projections) largest = std::max(largest, std::abs(v));
+  scale_ = kReach / largest;
+  const int margin = static_cast<int>(std::ceil(0.5 + roundingError(norm_)));
+  std::vector<std::uint32_t> entries(points.size());
+  std::iota(entries.begin(), entries.end(), 0u);
+  tree_ = FeatureTree(
+      entries,
+      [&](std::uint32_t entry, std::int16_t* low, std::int16_t* high) {
+        for (int d = 0; d < kDirections; ++d)
+          low[d] = high[d] = static_cast<std::int16_t>(std::lround(
+              projections[std::size_t{entry} * kDirections + static_cast<std::size_t>(d)] * scale_ +
+              kHalf));
+      },
+      margin);
+  points_ = std::move(points);
+
+  // What else decides whether a child may be chosen from.
+  const auto join = [](Child& a, const Child& b) {
+    a.weight = std::min(a.weight, b.weight);
+    a.first = min(a.first, b.first);
+    a.last = max(a.last, b.last);
+  };
+  const Child nothing{
+      std::numeric_limits<float>::infinity(), {1 << 30, 1 << 30, 1 << 30}, {-1, -1, -1}};
+  if (!weight_ && !windowed_) return;
+  below_.emplace_back(tree_.leaves(), nothing);
+  for (std::size_t n = 0; n < tree_.leaves(); ++n)
+    for (std::uint32_t entry : tree_.leaf(n).entry) {
+      if (entry == FeatureTree::kNone) continue;
+      const Vec3i p = set.position(points_[entry]);
+      join(below_[0][n], {weight_ ? weight_->data()[points_[entry]] : 1.0f, p, p});
+    }
+  for (int level = 0; level < tree_.levels(); ++level) {
+    std::vector<Child> nodes(tree_.nodes(level), nothing);
+    for (std::size_t c = 0; c < below_.back().size(); ++c)
+      join(nodes[c / FeatureTree::kWide], below_.back()[c]);
+    below_.push_back(std::move(nodes));
+  }
+}
+
+double PatchTree::roundingError(double norm) const {
+  // Sums of a row's samples, then of rows: each operation is off by at most 2^-24 of a value that
+  // no patch's length exceeds. The directions themselves are rounded as well.
+  const double rows = static_cast<double>(set_.terms()) / set_.patch().x;
+  return (rows + set_.patch().x + 8) * kUlp * norm * scale_;
 }
 
 void PatchTree::findDirections(std::span<const std::uint32_t> points) {
@@ -280,21 +297,24 @@ void PatchTree::findDirections(std::span<const std::uint32_t> points) {
       for (std::size_t s = 0; s < count; ++s) samples[s * terms + t] -= mean;
     }
   }
-  std::vector<double> basis(terms * kWide), next(terms * kWide);
+  std::vector<double> basis(terms * kDirections), next(terms * kDirections);
   for (std::size_t i = 0; i < basis.size(); ++i) basis[i] = random.normal(i);
   const auto orthonormalize = [&](std::vector<double>& m) {
-    for (int b = 0; b < kWide; ++b)
+    for (int b = 0; b < kDirections; ++b)
       for (int pass = 0; pass < 2; ++pass) {
         for (int a = 0; a < b; ++a) {
           double product = 0;
-          for (std::size_t t = 0; t < terms; ++t) product += m[t * kWide + a] * m[t * kWide + b];
-          for (std::size_t t = 0; t < terms; ++t) m[t * kWide + b] -= product * m[t * kWide + a];
+          for (std::size_t t = 0; t < terms; ++t)
+            product += m[t * kDirections + a] * m[t * kDirections + b];
+          for (std::size_t t = 0; t < terms; ++t)
+            m[t * kDirections + b] -= product * m[t * kDirections + a];
         }
         double norm = 0;
-        for (std::size_t t = 0; t < terms; ++t) norm += m[t * kWide + b] * m[t * kWide + b];
+        for (std::size_t t = 0; t < terms; ++t)
+          norm += m[t * kDirections + b] * m[t * kDirections + b];
         // More directions than terms or than the patches span: the rest stay zero.
         const double scale = norm > 1e-18 ? 1 / std::sqrt(norm) : 0;
-        for (std::size_t t = 0; t < terms; ++t) m[t * kWide + b] *= scale;
+        for (std::size_t t = 0; t < terms; ++t) m[t * kDirections + b] *= scale;
       }
   };
   orthonormalize(basis);
@@ -302,11 +322,11 @@ void PatchTree::findDirections(std::span<const std::uint32_t> points) {
     std::ranges::fill(next, 0.0);
     for (std::size_t s = 0; s < count; ++s) {
       const double* x = samples.data() + s * terms;
-      double products[kWide] = {};
+      double products[kDirections] = {};
       for (std::size_t t = 0; t < terms; ++t)
-        for (int b = 0; b < kWide; ++b) products[b] += x[t] * basis[t * kWide + b];
+        for (int b = 0; b < kDirections; ++b) products[b] += x[t] * basis[t * kDirections + b];
       for (std::size_t t = 0; t < terms; ++t)
-        for (int b = 0; b < kWide; ++b) next[t * kWide + b] += x[t] * products[b];
+        for (int b = 0; b < kDirections; ++b) next[t * kDirections + b] += x[t] * products[b];
     }
     // The scale of what is negligible depends on the data.
     double largest = 0;
@@ -319,201 +339,102 @@ void PatchTree::findDirections(std::span<const std::uint32_t> points) {
   basis_.assign(basis.begin(), basis.end());
 }
 
-void PatchTree::split(std::size_t begin, std::size_t end, const std::vector<float>& values) {
-  if (end - begin <= kWide) {
-    std::sort(permutation_.begin() + begin, permutation_.begin() + end);
-    return;
-  }
-  // Leaves hold sixteen points, and aligned groups of 16^k leaves form the nodes, so cut at the
-  // largest power of two of leaves that leaves something on the right.
-  const std::size_t leaves = (end - begin + kWide - 1) / kWide;
-  const std::size_t left = std::bit_ceil(leaves) / 2 * kWide;
-  double best = -1;
-  int axis = 0;
-  for (int d = 0; d < kWide; ++d) {
-    double sum = 0, squares = 0;
-    for (std::size_t p = begin; p < end; ++p) {
-      const double v = values[std::size_t{permutation_[p]} * kWide + d];
-      sum += v;
-      squares += v * v;
-    }
-    const double spread = squares - sum * sum / static_cast<double>(end - begin);
-    if (spread > best) {
-      best = spread;
-      axis = d;
-    }
-  }
-  std::nth_element(permutation_.begin() + begin, permutation_.begin() + begin + left,
-                   permutation_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-                     const float va = values[std::size_t{a} * kWide + axis];
-                     const float vb = values[std::size_t{b} * kWide + axis];
-                     return va != vb ? va < vb : a < b;
-                   });
-  if (end - begin > 8192)
-    tbb::parallel_invoke([&] { split(begin, begin + left, values); },
-                         [&] { split(begin + left, end, values); });
-  else {
-    split(begin, begin + left, values);
-    split(begin + left, end, values);
-  }
-}
-
-void PatchTree::build(const std::vector<float>& values) {
-  const std::size_t leaves = (points_.size() + kWide - 1) / kWide;
-  leaves_.resize(leaves);
-  std::vector<std::uint32_t> sorted(leaves * kWide, std::numeric_limits<std::uint32_t>::max());
-  for (std::size_t p = 0; p < leaves * kWide; ++p) {
-    const bool there = p < points_.size();
-    for (int d = 0; d < kWide; ++d) {
-      const float v = there ? values[std::size_t{permutation_[p]} * kWide + d] : kInfinite;
-      leaves_[p / kWide].value[d][p % kWide] = v;
-    }
-    if (there) sorted[p] = points_[permutation_[p]];
-  }
-  points_ = std::move(sorted);
-  permutation_.clear();
-
-  // The boxes of leaves, and then of nodes, sixteen at a time.
-  std::size_t below = leaves;
-  do {
-    const bool overLeaves = levels_.empty();
-    std::vector<Node> nodes((below + kWide - 1) / kWide);
-    for (std::size_t c = 0; c < nodes.size() * kWide; ++c) {
-      Node& node = nodes[c / kWide];
-      const std::size_t lane = c % kWide;
-      float low[kWide], high[kWide];
-      std::ranges::fill(low, kInfinite);
-      std::ranges::fill(high, -kInfinite);
-      float weight = kInfinite;
-      std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
-      Vec3i first{1 << 30, 1 << 30, 1 << 30}, last{-1, -1, -1};
-      for (int i = 0; c < below && i < kWide; ++i) {
-        if (overLeaves) {
-          const std::uint32_t point = points_[c * kWide + i];
-          if (point == std::numeric_limits<std::uint32_t>::max()) continue;
-          for (int d = 0; d < kWide; ++d) {
-            low[d] = std::min(low[d], leaves_[c].value[d][i]);
-            high[d] = std::max(high[d], leaves_[c].value[d][i]);
-          }
-          weight = std::min(weight, weight_ ? weight_->data()[point] : 1.0f);
-          lowest = std::min(lowest, point);
-          first = min(first, set_.position(point));
-          last = max(last, set_.position(point));
-        } else {
-          const Node& child = levels_.back()[c];
-          for (int d = 0; d < kWide; ++d) {
-            low[d] = std::min(low[d], child.low[d][i]);
-            high[d] = std::max(high[d], child.high[d][i]);
-          }
-          weight = std::min(weight, child.weight[i]);
-          lowest = std::min(lowest, child.lowest[i]);
-          first = min(first, child.first[i]);
-          last = max(last, child.last[i]);
-        }
-      }
-      for (int d = 0; d < kWide; ++d) {
-        node.low[d][lane] = low[d];
-        node.high[d][lane] = high[d];
-      }
-      node.weight[lane] = weight;
-      node.lowest[lane] = lowest;
-      node.first[lane] = first;
-      node.last[lane] = last;
-    }
-    below = nodes.size();
-    levels_.push_back(std::move(nodes));
-  } while (below > 1);
-}
-
-void PatchTree::project(const PatchSet& from, std::uint32_t index, float* projection) const {
+kernels::QueryFeatures PatchTree::features(const PatchSet& from, std::uint32_t index,
+                                           float norm) const {
+  float projection[kDirections];
   from.project(basis_.data(), center_, index, projection);
+  const double error = roundingError(norm);
+  kernels::QueryFeatures features;
+  features.weighted = false;
+  features.detailPairs = kernels::kDetails / 2;
+  for (int p = 0; p < features.detailPairs; ++p)
+    features.detailPair[p] = static_cast<std::uint8_t>(p);
+  for (int d = 0; d < kDirections; ++d) {
+    const double v = projection[d] * scale_ + kHalf;
+    const auto low = static_cast<std::int16_t>(std::clamp(std::floor(v - error), 0.0, 32767.0));
+    const auto high = static_cast<std::int16_t>(std::clamp(std::ceil(v + error), 0.0, 32767.0));
+    (d < kernels::kMeans ? features.meanLow[d] : features.detailLow[d - kernels::kMeans]) = low;
+    (d < kernels::kMeans ? features.meanHigh[d] : features.detailHigh[d - kernels::kMeans]) = high;
+  }
+  return features;
 }
 
-PatchTree::Candidate PatchTree::nearest(const float* gathered, const float* projection,
-                                        float queryNorm, const Candidate& start,
-                                        const Window* window) const {
-  Candidate best = start;
-  // How far rounding may carry a projected distance above the true one: sums of rows and of a row's
-  // samples, in each direction, of both patches. The sum itself may come out too small by its own
-  // rounding.
-  const float rows = static_cast<float>(set_.terms()) / static_cast<float>(set_.patch().x);
-  const float steps = rows + static_cast<float>(set_.patch().x) + 8;
-  const float slack = 4 * steps * kUlp * (norm_ + queryNorm);
-  const float relative = 1 + (static_cast<float>(set_.terms()) + 64) * kUlp;
-  // Beyond this bound a patch of weight `w` costs more than the best.
-  const auto farthest = [&](float w) {
-    const float root = std::sqrt(best.cost / w * relative) + slack;
-    return root * root * 1.00001f;
+// What the tree's search asks and finds.
+struct PatchTree::Search {
+  const PatchTree& tree;
+  const float* gathered;
+  const Window* window;
+  Candidate best;
+  float relative;  // a sum's own rounding
+  std::uint32_t limit = kernels::kLargestBound;
+  struct Found {
+    std::uint32_t gap, entry;
   };
-  float limit = farthest(1);
-  const auto hopeless = [&](float bound, float w, std::uint32_t lowest) {
-    if (bound > (weight_ ? farthest(w) : limit)) return true;
-    return best.cost == 0 && lowest > best.index;
-  };
+  Found found[FeatureTree::kWide * FeatureTree::kWide];
+  int count = 0;
 
-  struct Open {
-    float bound;
-    int level;
-    std::uint32_t node;
-    float weight;
-    std::uint32_t lowest;
-  };
-  Open stack[kWide * 9];
-  int open = 0;
-  stack[open++] = {0, static_cast<int>(levels_.size()) - 1, 0, 0, 0};
-  if (weight_)
-    stack[0].weight = *std::min_element(levels_.back()[0].weight, levels_.back()[0].weight + kWide);
-  else
-    stack[0].weight = 1;
-  while (open > 0) {
-    const Open at = stack[--open];
-    if (hopeless(at.bound, at.weight, at.lowest)) continue;
-    float bounds[kWide];
-    int order[kWide], count = 0;
-    const auto insert = [&](int child) {
-      int i = count++;
-      for (; i > 0 && bounds[order[i - 1]] > bounds[child]; --i) order[i] = order[i - 1];
-      order[i] = child;
-    };
-    if (at.level < 0) {
-      pointBounds(leaves_[at.node].value, projection, bounds);
-      const std::uint32_t* points = points_.data() + std::size_t{at.node} * kWide;
-      for (int c = 0; c < kWide; ++c)
-        if (bounds[c] < kInfinite && !hopeless(bounds[c], weight_ ? at.weight : 1, points[c]))
-          insert(c);
-      for (int o = 0; o < count; ++o) {
-        const std::uint32_t point = points[order[o]];
-        const float w = weight_ ? weight_->data()[point] : 1;
-        if (hopeless(bounds[order[o]], w, point)) continue;
-        if (window) {
-          const Vec3i p = set_.position(point);
-          if (max(p, window->first) != p || min(p, window->last) != p) continue;
-        }
-        const float sum = set_.sum(gathered, point, best.cost / w * relative);
-        const Candidate candidate{w * sum, point, sum};
-        if (candidate.before(best)) {
-          best = candidate;
-          limit = farthest(1);
-        }
-      }
-      continue;
-    }
-    const Node& node = levels_[at.level][at.node];
-    boxBounds(node.low, node.high, projection, bounds);
-    for (int c = 0; c < kWide; ++c) {
-      if (!(bounds[c] < kInfinite) || hopeless(bounds[c], node.weight[c], node.lowest[c])) continue;
-      if (window && (max(node.last[c], window->first) != node.last[c] ||
-                     min(node.first[c], window->last) != node.first[c]))
-        continue;
-      insert(c);
-    }
-    while (count > 0) {
-      const int c = order[--count];
-      stack[open++] = {bounds[c], at.level - 1, at.node * kWide + static_cast<std::uint32_t>(c),
-                       node.weight[c], node.lowest[c]};
-    }
+  // Sums of squared gaps above this belong to patches that, at weight `w`, cost more than the best.
+  std::uint32_t boundAt(float w) const {
+    const double bound = static_cast<double>(best.cost) / w * relative * tree.scale_ * tree.scale_;
+    return bound < kernels::kLargestBound ? static_cast<std::uint32_t>(bound * (1 + 1e-9))
+                                          : kernels::kLargestBound;
   }
-  return best;
+  void update() { limit = boundAt(tree.weight_ ? tree.below_.back()[0].weight : 1.0f); }
+
+  std::uint32_t bound() const { return limit; }
+  bool hopeless(std::uint32_t lowest) const {
+    return best.cost == 0 && tree.points_[lowest] > best.index;
+  }
+  bool inWindow(const Vec3i& first, const Vec3i& last) const {
+    return !window || (max(last, window->first) == last && min(first, window->last) == first);
+  }
+  bool may(int level, std::size_t child, std::uint32_t gap) const {
+    if (tree.below_.empty()) return true;
+    const Child& c = tree.below_[static_cast<std::size_t>(level)][child];
+    return inWindow(c.first, c.last) && (!tree.weight_ || gap <= boundAt(c.weight));
+  }
+  bool node() {
+    count = 0;
+    return true;
+  }
+  void leaves(int) {}
+  void add(std::uint32_t entry, std::uint32_t gap) {
+    const std::uint32_t point = tree.points_[entry];
+    if (window) {
+      const Vec3i p = tree.set_.position(point);
+      if (!inWindow(p, p)) return;
+    }
+    if (tree.weight_ && gap > boundAt(tree.weight_->data()[point])) return;
+    found[count++] = {gap, point};
+  }
+  void flush() {
+    // The nearest first: each may lower the limit for those behind it.
+    std::sort(found, found + count, [](const Found& a, const Found& b) {
+      return a.gap != b.gap ? a.gap < b.gap : a.entry < b.entry;
+    });
+    for (int f = 0; f < count && found[f].gap <= limit; ++f) offer(found[f].entry);
+  }
+  void offer(std::uint32_t point) {
+    const float w = tree.weight_ ? tree.weight_->data()[point] : 1.0f;
+    const float sum = tree.set_.sum(gathered, point, best.cost / w * relative);
+    const Candidate candidate{w * sum, point, sum};
+    if (!candidate.before(best)) return;
+    best = candidate;
+    update();
+  }
+};
+
+PatchTree::Candidate PatchTree::nearest(const float* gathered,
+                                        const kernels::QueryFeatures& features,
+                                        const Candidate& start, const Window* window) const {
+  if (points_.empty()) return start;
+  const float relative = 1 + (static_cast<float>(set_.terms()) + 64) * kUlp;
+  Search search{*this, gathered, window, start, relative};
+  search.update();
+  if (start.index == FeatureTree::kNone && !window)
+    search.offer(points_[likelyEntry(tree_, features)]);
+  searchTree(tree_, features, search);
+  return search.best;
 }
 
 }  // namespace exemplar

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "search/feature_tree.h"
+#include "search/kernels.h"
 #include "search/nearest_neighbor_field.h"
 
 namespace exemplar {
@@ -66,16 +68,16 @@ struct PatchChoice {
 
 /// An exact nearest-neighbour index of a set's patches.
 ///
-/// Patches are projected on sixteen orthonormal directions, the leading principal components of the
-/// set. By Bessel's inequality projected distances never exceed the patches' own, as equation 2 of
-/// Lagae 2004 says of averages. A 16-ary tree of boxes over the projections, searched depth-first,
-/// yields the candidates; each is then summed in full. The bounds are kept below the sums by more
-/// than the rounding of both.
+/// Patches are projected on 32 orthonormal directions, the leading principal components of the set.
+/// By Bessel's inequality projected distances never exceed the patches' own, as equation 2 of Lagae
+/// 2004 says of averages. A `FeatureTree` over the projections, as whole numbers, yields the
+/// candidates; each is then summed in full. The bounds are kept below the sums by more than the
+/// rounding of both.
 class PatchTree {
  public:
-  static constexpr int kWide = 16;  ///< projections, children of a node, points of a leaf
+  static constexpr int kDirections = FeatureTree::kFeatures;
 
-  /// Keeps a reference to `set`. Deterministic; parallel.
+  /// Keeps a reference to `set`. Deterministic; parallel. About 55 bytes a patch.
   PatchTree(const PatchSet& set, const PatchChoice& choice);
 
   struct Candidate {
@@ -91,41 +93,34 @@ class PatchTree {
     Vec3i first, last;
   };
 
-  /// The cheapest patch, ties by lowest index, or `start` if nothing comes before it. `projection`:
-  /// the gathered patch's by `project`; `queryNorm`: its set's `largestNorm(center())` with this
-  /// tree's center.
-  Candidate nearest(const float* gathered, const float* projection, float queryNorm,
+  /// The cheapest patch, ties by lowest index, or `start` if nothing comes before it. `features`
+  /// are those of the gathered patch.
+  Candidate nearest(const float* gathered, const kernels::QueryFeatures& features,
                     const Candidate& start, const Window* window) const;
-  /// A patch of any set on the tree's directions: `kWide` numbers.
-  void project(const PatchSet& from, std::uint32_t index, float* projection) const;
+  /// What a patch of any set says about its projections; `norm` is that set's
+  /// `largestNorm(center())`.
+  kernels::QueryFeatures features(const PatchSet& from, std::uint32_t index, float norm) const;
   float center() const { return center_; }
 
-  bool empty() const { return points_.empty(); }
-  std::uint32_t first() const { return lowest_; }  ///< the lowest index there is to choose
-
  private:
-  struct Node {
-    float low[kWide][kWide], high[kWide][kWide];  // [direction][child]
-    float weight[kWide];                          // the smallest below each child
-    std::uint32_t lowest[kWide];                  // index below each child
-    Vec3i first[kWide], last[kWide];              // positions below each child
-  };
-  struct Leaf {
-    float value[kWide][kWide];  // [direction][point]
+  struct Search;
+  struct Child {
+    float weight;       // the smallest below
+    Vec3i first, last;  // positions below
   };
   void findDirections(std::span<const std::uint32_t> points);
-  void split(std::size_t begin, std::size_t end, const std::vector<float>& values);
-  void build(const std::vector<float>& values);
+  /// How far rounding may carry a projection from the true one, in numbers.
+  double roundingError(double norm) const;
 
   const PatchSet& set_;
   const Array3D<float>* weight_;
-  std::vector<std::uint32_t> points_;       // leaf after leaf
-  std::vector<std::uint32_t> permutation_;  // while building
-  std::vector<Leaf> leaves_;
-  std::vector<std::vector<Node>> levels_;  // levels_[0]: parents of leaves; the last has one node
-  std::vector<float> basis_;               // terms x kWide
-  std::uint32_t lowest_ = 0;
-  float center_ = 0, norm_ = 0;  // of the set
+  bool windowed_;
+  std::vector<std::uint32_t> points_;  // by entry of the tree, rising
+  FeatureTree tree_;
+  std::vector<std::vector<Child>> below_;  // of each leaf; of each node of level 0, 1, ...
+  std::vector<float> basis_;               // terms x kDirections
+  double scale_ = 1;                       // numbers a unit of a projection
+  float center_ = 0, norm_ = 0;            // of the set
 };
 
 }  // namespace exemplar
