@@ -70,6 +70,10 @@ void check(const DistanceField& field, const Origins& origins,
     throw InputError("blending seams: a width of " + std::to_string(options.width) +
                      " voxels is out of range; 0.5 to 8 is right");
   }
+  if (!(options.agreement > 0)) {
+    throw InputError("blending seams: an agreement of " + std::to_string(options.agreement) +
+                     " voxels is out of range; more than 0 is right");
+  }
   if (origins.size() != field.size()) {
     throw InputError("the origins are not of the field's size; use those of the same synthesis");
   }
@@ -90,6 +94,7 @@ DistanceField blendSeams(const DistanceField& field, const Origins& origins,
   check(field, origins, examples, options);
   const std::vector<Neighbour> neighbours = neighbourhood(options.width);
   const double near = (options.width + 2) * field.voxelSize;
+  const double agree = options.agreement * field.voxelSize;
   const Vec3i n = field.size();
   const Array3D<std::uint8_t> atSeam =
       seamSamples(field, origins, near, static_cast<int>(std::ceil(options.width)));
@@ -131,8 +136,10 @@ DistanceField blendSeams(const DistanceField& field, const Origins& origins,
               if (!example.values.contains(cell)) continue;
               value = example.values[cell] * (field.voxelSize / example.voxelSize);
             }
-            sum += part.weight * value;
-            weights += part.weight;
+            const double apart = (value - field.values[at]) / agree;
+            const double weight = part.weight * std::exp(-apart * apart);
+            sum += weight * value;
+            weights += weight;
           }
           result.values[at] = static_cast<float>(sum / weights);
         }

@@ -14,6 +14,9 @@ namespace exemplar {
 struct BlendSeamsOptions {
   /// How far from a seam copied parts are blended into each other, voxels, 0.5..8.
   double width = 2;
+  /// How far apart, voxels, two parts may be to count as the same surface, > 0: beyond twice this
+  /// they are left as they are, so that a wall that ends at a seam is not drawn out into a fin.
+  double agreement = 1.5;
 };
 
 /// Evens out the steps between copied parts: near a seam each sample becomes the weighted mean of
@@ -23,8 +26,7 @@ struct BlendSeamsOptions {
 /// This is the overlap and blend that patch-based texture synthesis uses (Liang et al. 2001) and
 /// Lagae 2004, section 5.3, names as the missing step for geometry: parts need not have been
 /// synthesized with an overlap, for origins tell how each goes on. Means of nearly equal distances
-/// are nearly distances, so small steps become slopes; where parts disagree about which side is
-/// solid a step remains, rounded.
+/// are nearly distances, so small steps become slopes; where parts do not agree their step remains.
 ///
 /// Only samples within `width` and two more voxels of the surface change. O(s width³) for s such
 /// samples. The same bytes at any number of threads. Throws `InputError` for options out of range

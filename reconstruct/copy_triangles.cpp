@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
+#include "reconstruct/manifold.h"
 #include "reconstruct/origin_map.h"
 #include "reconstruct/pull.h"
 #include "reconstruct/smooth.h"
@@ -27,6 +28,9 @@ namespace {
 /// Corners that agree to this many voxels are one: they are the same corner of the example, reached
 /// by another sum.
 constexpr double kSame = 1e-5;
+
+/// Relaxing moves no vertex farther than this, voxels.
+constexpr double kFarthest = 0.5;
 
 /// A corner of a piece of an example triangle: where, in the example's index space, and its
 /// barycentric weights.
@@ -406,12 +410,15 @@ CopiedTriangles copyTriangles(const DistanceField& field, const Origins& origins
   progress.report("joining the copied parts", 0.5);
   weldVertices(result.mesh, kSame * field.voxelSize, part);
   if (options.weld > 0) stitchRims(result.mesh, options.weld * field.voxelSize, part);
+  // Where several parts overlap, rims meet in edges of three and more triangles; nothing moves.
+  makeManifold(result.mesh, {.separation = 0, .repairDegenerate = false});
   if (options.relax > 0) {
     progress.report("relaxing the seams", 0.8);
     SmoothOptions relax;
     relax.iterations = options.relax;
     relax.weights = seamWeights(result.mesh, field, origins);
     relax.box = field.box();
+    relax.most = kFarthest * field.voxelSize;
     smooth(result.mesh, relax);
   }
   result.health = meshHealth(result.mesh);

@@ -131,6 +131,10 @@ std::vector<std::uint8_t> heldAxes(const TriangleMesh& mesh, const SmoothOptions
   return held;
 }
 
+double weightOf(const SmoothOptions& options, std::size_t v) {
+  return options.weights.empty() ? 1.0 : double{options.weights[v]};
+}
+
 Vec3d freePart(Vec3d move, std::uint8_t held) {
   for (int a = 0; a < 3; ++a) {
     if (held & (1 << a)) move[a] = 0;
@@ -150,6 +154,31 @@ std::vector<double> partVolumes(const TriangleMesh& mesh, const std::vector<std:
   return volumes;
 }
 
+/// Shifts vertices along their normals until every closed part encloses what it should.
+void restoreVolumes(TriangleMesh& mesh, const SmoothOptions& options,
+                    const std::vector<std::uint8_t>& held, const std::vector<std::uint32_t>& part,
+                    const std::vector<Vec3d>& anchors, const std::vector<std::uint8_t>& closed,
+                    const std::vector<double>& wanted) {
+  const VertexCorners corners = vertexCorners(mesh.triangles, mesh.positions.size());
+  for (int round = 0; round < 4; ++round) {
+    const std::vector<double> volumes = partVolumes(mesh, part, anchors);
+    const std::vector<Vec3d> normals = vertexNormals(mesh, corners);
+    std::vector<double> growth(anchors.size(),
+                               0);  // of each part's volume, for a shift by one unit
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const Vec3d move = freePart(normalized(normals[v]), held[v]) * weightOf(options, v);
+      growth[part[v]] += dot(move, normals[v]) / 6;
+    }
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const std::uint32_t p = part[v];
+      if (!closed[p] || growth[p] <= 0) continue;
+      const double shift = (wanted[p] - volumes[p]) / growth[p];
+      mesh.positions[v] +=
+          freePart(normalized(normals[v]), held[v]) * (weightOf(options, v) * shift);
+    }
+  }
+}
+
 void check(const TriangleMesh& mesh, const SmoothOptions& options) {
   if (options.iterations < 0 || options.iterations > 10000) {
     throw InputError("smoothing: " + std::to_string(options.iterations) +
@@ -158,6 +187,10 @@ void check(const TriangleMesh& mesh, const SmoothOptions& options) {
   if (!(options.strength >= 0 && options.strength <= 0.6)) {
     throw InputError("smoothing: a strength of " + std::to_string(options.strength) +
                      " is out of range; 0 to 0.6 is right");
+  }
+  if (!(options.most >= 0)) {
+    throw InputError("smoothing: moves of " + std::to_string(options.most) +
+                     " are out of range; 0 or more world units is right");
   }
   if (!options.weights.empty() && options.weights.size() != mesh.positions.size()) {
     throw InputError("smoothing: " + std::to_string(options.weights.size()) + " weights for " +
@@ -180,9 +213,6 @@ void smooth(TriangleMesh& mesh, const SmoothOptions& options) {
     for (std::uint32_t n = rings.begin[v]; n < rings.begin[v + 1]; ++n) vertexOfRing[n] = v;
   }
   const std::vector<std::uint8_t> held = heldAxes(mesh, options);
-  const auto weight = [&](std::size_t v) {
-    return options.weights.empty() ? 1.0 : double{options.weights[v]};
-  };
 
   std::uint32_t parts = 0;
   const std::vector<std::uint32_t> part = vertexComponents(mesh.triangles, vertices, &parts);
@@ -194,35 +224,26 @@ void smooth(TriangleMesh& mesh, const SmoothOptions& options) {
   }
   const std::vector<double> wanted = partVolumes(mesh, part, anchors);
 
+  const std::vector<Vec3d> before = mesh.positions;
   const double mu = 1 / (kPassBand - 1 / options.strength);
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     for (const double step : {options.strength, mu}) {
       const std::vector<Vec3d> moves = umbrellas(rings, vertexOfRing, mesh.positions);
       parallelFor(0, vertices, kGrain, [&](std::size_t v0, std::size_t v1) {
         for (std::size_t v = v0; v < v1; ++v) {
-          mesh.positions[v] += freePart(moves[v] * (step * weight(v)), held[v]);
+          mesh.positions[v] += freePart(moves[v] * (step * weightOf(options, v)), held[v]);
         }
       });
     }
   }
-  if (!options.keepVolume) return;
-
-  const VertexCorners corners = vertexCorners(mesh.triangles, vertices);
-  for (int round = 0; round < 4; ++round) {
-    const std::vector<double> volumes = partVolumes(mesh, part, anchors);
-    const std::vector<Vec3d> normals = vertexNormals(mesh, corners);
-    std::vector<double> growth(parts, 0);  // of each part's volume, for a shift by one unit
-    for (std::size_t v = 0; v < vertices; ++v) {
-      const Vec3d move = freePart(normalized(normals[v]), held[v]) * weight(v);
-      growth[part[v]] += dot(move, normals[v]) / 6;
+  if (options.keepVolume) restoreVolumes(mesh, options, held, part, anchors, closed, wanted);
+  parallelFor(0, vertices, kGrain, [&](std::size_t v0, std::size_t v1) {
+    for (std::size_t v = v0; v < v1; ++v) {
+      const Vec3d move = mesh.positions[v] - before[v];
+      const double far = length(move);
+      if (far > options.most) mesh.positions[v] = before[v] + move * (options.most / far);
     }
-    for (std::size_t v = 0; v < vertices; ++v) {
-      const std::uint32_t p = part[v];
-      if (!closed[p] || growth[p] <= 0) continue;
-      const double shift = (wanted[p] - volumes[p]) / growth[p];
-      mesh.positions[v] += freePart(normalized(normals[v]), held[v]) * (weight(v) * shift);
-    }
-  }
+  });
 }
 
 std::vector<float> seamWeights(const TriangleMesh& mesh, const DistanceField& field,

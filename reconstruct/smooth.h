@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct SmoothOptions {
   double strength = 0.5;
   /// How much of each step every vertex takes, 0..1: one value a vertex, or none for all of it.
   std::vector<float> weights;
+  /// No vertex moves farther than this, world units, >= 0: the neighbours of a large triangle's
+  /// corners are far away.
+  double most = std::numeric_limits<double>::infinity();
   /// Moves vertices along their normals afterwards until every closed part encloses what it did.
   bool keepVolume = true;
   /// Vertices in the faces of this box stay in them.

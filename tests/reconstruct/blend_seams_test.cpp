@@ -100,8 +100,9 @@ TEST(BlendSeams, FollowsQuarterTurns) {
     origins.values()[n] = Origin(from, 0, 1);
     field.values[c] = example.values[from];
   }
-  // At x = 12 the turned part says p.z - 7.4 - 0.15 (y - 23 + x): a step, which the blend divides.
-  const DistanceField blended = blendSeams(field, origins, example);
+  // At x = 12 the turned part says p.z - 7.4 - 0.15 (y - 23 + x): a step, which the blend divides
+  // where steps of any size count as the same surface.
+  const DistanceField blended = blendSeams(field, origins, example, {.agreement = 1e6});
   for (int j = 4; j < 20; ++j) {
     const double left = 7 - 7.4 - 0.15 * (11 - j), right = 7 - 7.4 - 0.15 * (j - 23 + 11);
     if (std::abs(left) > 2.5 || std::abs(right) > 2.5) continue;
@@ -110,6 +111,27 @@ TEST(BlendSeams, FollowsQuarterTurns) {
     EXPECT_LE(value, std::max(left, right) + 1e-5);
     EXPECT_NEAR(value, 0.5 * (left + right), 0.25 * std::abs(left - right) + 1e-5);
   }
+}
+
+TEST(BlendSeams, LeavesWhatDoesNotAgree) {
+  // A wall of 4 voxels that ends at the seam: beyond it the copy says air, 8 voxels away from
+  // solid. Without the limit the wall's end would be drawn out into a fin.
+  const DistanceField example = makeField({40, 24, 24}, 1, {0, 0, 0}, [](const Vec3d& p) {
+    return std::max(std::abs(p.z - 11.4) - 2, p.x - 29.5);
+  });
+  const Copied copied(example, -16);
+  const auto change = [&](double agreement) {
+    const DistanceField blended =
+        blendSeams(copied.field, copied.origins, example, {.agreement = agreement});
+    double most = 0;
+    for (std::size_t n = 0; n < blended.values.count(); ++n) {
+      most = std::max(
+          most, std::abs(double{blended.values.values()[n]} - copied.field.values.values()[n]));
+    }
+    return most;
+  };
+  EXPECT_LT(change(1.5), 0.25);
+  EXPECT_GT(change(1e6), 1);
 }
 
 TEST(BlendSeams, MakesTheContouredSurfaceSmoother) {
@@ -144,6 +166,7 @@ TEST(BlendSeams, BadInputIsRefused) {
   const DistanceField example = slopeField(0.2);
   Origins origins = identityOrigins(example.size());
   EXPECT_THROW(blendSeams(example, origins, example, {.width = 0}), InputError);
+  EXPECT_THROW(blendSeams(example, origins, example, {.agreement = 0}), InputError);
   EXPECT_THROW(blendSeams(example, Origins({2, 2, 2}), example), InputError);
   origins(3, 3, 3).example = 1;
   EXPECT_THROW(blendSeams(example, origins, example), InputError);

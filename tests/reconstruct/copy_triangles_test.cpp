@@ -214,6 +214,8 @@ TEST(CopyTriangles, IsTheSameAtAnyNumberOfThreads) {
   tbb::task_arena(8).execute([&] { eight = copyTriangles(field, origins, example, field); });
   EXPECT_EQ(one.mesh.positions, eight.mesh.positions);
   EXPECT_EQ(one.mesh.triangles, eight.mesh.triangles);
+  // Where three parts overlap their rims meet in edges of more than two triangles.
+  EXPECT_TRUE(one.health.manifold());
 }
 
 TEST(CopyTriangles, BadInputIsRefused) {

@@ -97,6 +97,20 @@ TEST(Smooth, WeightsOfZeroHoldVerticesStill) {
   EXPECT_GT(moved, 100);
 }
 
+TEST(Smooth, MovesNothingFartherThanAsked) {
+  const TriangleMesh before = noisy(makeSphere({}, 1, 10), 0.05);
+  TriangleMesh free = before, held = before;
+  smooth(free);
+  smooth(held, {.most = 0.01});
+  double farthest = 0;
+  for (std::size_t v = 0; v < before.positions.size(); ++v) {
+    farthest = std::max(farthest, length(free.positions[v] - before.positions[v]));
+    EXPECT_LE(length(held.positions[v] - before.positions[v]), 0.01 * (1 + 1e-9));
+  }
+  EXPECT_GT(farthest, 0.03);
+  EXPECT_LT(roughness(held), roughness(before));
+}
+
 TEST(Smooth, VerticesInTheBoxesFacesStayInThem) {
   const DistanceField field = makeField({16, 16, 16}, 1, {0, 0, 0}, [](const Vec3d& p) {
     return std::hypot(p.y - 7.3, p.z - 7.6) - 4 + 0.3 * std::sin(p.x * 2);

@@ -1,0 +1,57 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <span>
+
+#include "core/origin.h"
+#include "core/progress.h"
+#include "mesh/mesh_health.h"
+#include "mesh/triangle_mesh.h"
+#include "reconstruct/field_to_mesh.h"
+#include "reconstruct/transfer.h"
+#include "sdf/distance_field.h"
+
+namespace exemplar {
+
+/// One of the examples of a synthesis. What is borrowed outlives the call.
+struct ReconstructExample {
+  const DistanceField& field;
+  const TriangleMesh* mesh = nullptr;  ///< none: nothing to take materials and colours from
+};
+
+struct ReconstructOptions {
+  /// How far from seams copied parts are blended into each other (`blendSeams`), voxels, 0.5..8; 0
+  /// for not at all.
+  double blend = 2;
+  FieldToMeshOptions contour;
+  /// Smoothing steps at the seams of the surface (`smooth`), 0..10000.
+  int relax = 0;
+  /// Merge triangles that lie flat to within this many voxels (`decimate`), >= 0; 0 for not at all.
+  double simplify = 0;
+  TransferOptions appearance;
+};
+
+struct Reconstruction {
+  TriangleMesh mesh;
+  MeshHealth health;
+  FieldToMeshReport contour;  ///< of the surface before relaxing and simplifying
+};
+
+/// From what a synthesis returns to what leaves the program: blends the seams, contours, relaxes,
+/// simplifies, and takes materials, colours and textures from the examples where all of them have
+/// triangles. The result is closed (unless `contour.close` is off), manifold and oriented; `health`
+/// says so. The same bytes at any number of threads. Throws `InputError` as the steps do.
+Reconstruction reconstructSurface(const DistanceField& field, const Origins& origins,
+                                  std::span<const ReconstructExample> examples,
+                                  const ReconstructOptions& options = {},
+                                  const Progress& progress = {});
+
+/// The same for one example.
+Reconstruction reconstructSurface(const DistanceField& field, const Origins& origins,
+                                  const ReconstructExample& example,
+                                  const ReconstructOptions& options = {},
+                                  const Progress& progress = {});
+
+}  // namespace exemplar
