@@ -1,0 +1,162 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/array3d.h"
+#include "core/origin.h"
+#include "core/progress.h"
+#include "synth/model/symmetry.h"
+#include "voxelize/adjacency.h"
+#include "voxelize/label_grid.h"
+
+namespace exemplar {
+
+/// How model synthesis came out.
+enum class ModelStatus {
+  Complete,    ///< every cell has a label, and every pair of neighbors is one of the example's
+  Impossible,  ///< proved: nothing meets the request; `ModelResult::conflict` says why
+  Unfinished,  ///< the budget was spent and nothing is proved; there is no result
+  Cancelled,   ///< by the caller; there is no result
+};
+
+/// Which cells are labelled together.
+enum class ModelMethod {
+  Auto,    ///< `Whole`, and `Blocks` where that does not come to an end
+  Whole,   ///< the whole grid in one pass, repaired where it contradicts itself (Algorithm 3.1)
+  Blocks,  ///< a consistent start, modified block by block (Algorithm 3.4)
+};
+
+/// How probable each of a cell's possible labels is, before the user's own weights.
+enum class LabelChoice {
+  Frequency,    ///< as frequent as in the example
+  Uniform,      ///< all alike, as published
+  Resemblance,  ///< as frequent as where the example's surroundings look the same (Merrell 2007,
+                ///< equations 2-6)
+};
+
+/// What may stand in the outermost layer at a side of the result (thesis, section 3.3.6).
+struct SideRule {
+  enum class Kind {
+    Example,  ///< what the example shows at its own outermost layer on that side
+    Free,     ///< anything
+    Labels,   ///< any of `labels`
+  };
+  Kind kind = Kind::Example;
+  std::vector<Label> labels;
+};
+
+/// A cell that must have one of some labels.
+struct PinnedCell {
+  Vec3i cell;
+  std::vector<Label> labels;  ///< at least one
+  int frame = 0;
+};
+
+/// Where a label should be: its weight is multiplied by the map's value at a cell.
+struct WeightMap {
+  std::vector<Label> labels;  ///< those that it speaks of
+  /// Of the result's size; >= 0; where it is 0 the labels do not occur. A map that is 1 cell high
+  /// holds for every height.
+  Array3D<float> weight;
+};
+
+/// How many cells of some labels a result has, all in all.
+struct CountLimit {
+  std::vector<Label> labels;
+  std::int64_t least = 0;
+  std::optional<std::int64_t> most;  ///< none: any number
+};
+
+struct ModelOptions {
+  Vec3i size{0, 0, 0};  ///< of the result, cells; each component >= 1
+  int frames = 1;       ///< of the result, >= 1; more than one only with an example of frames
+  std::uint64_t seed = 0;
+  ModelMethod method = ModelMethod::Auto;
+  LabelChoice choice = LabelChoice::Frequency;
+
+  Vec3i block{10, 10, 10};  ///< cells; each component >= 2; blocks overlap by half
+  int rounds = 1;           ///< over all blocks, 1..100
+
+  std::array<SideRule, 6> sides;  ///< in the order of `Side`
+  /// The result repeats along x, y, z: its sides there meet each other and have no rule.
+  std::array<bool, 3> periodic{false, false, false};
+  bool loop = false;  ///< the last frame is followed by the first
+
+  std::vector<PinnedCell> pins;
+  Array3D<std::uint8_t> mask;   ///< of the result's size, 0: a hole that stays empty of all rules
+                                ///< and gets label 0; without cells: no holes
+  std::vector<double> weights;  ///< one a label, >= 0; empty: all 1; 0: the label does not occur
+  std::vector<WeightMap> weightMaps;
+  std::vector<CountLimit> counts;
+  /// Sets of labels whose cells, all in all, form one piece joined through faces.
+  std::vector<std::vector<Label>> connected;
+  ModelSymmetry symmetry;
+
+  /// Conflicts that the exact solver may meet in one region before it gives up, >= 1.
+  std::int64_t budget = 200000;
+};
+
+/// Why nothing fits: a smallest set of demands that exclude each other, given what may stand beside
+/// what. Without any one of them the others can be met (or at least are not known to conflict,
+/// where `proved` is false).
+struct ModelConflict {
+  std::vector<int> pins;    ///< indices into `ModelOptions::pins`
+  std::vector<Side> sides;  ///< sides with a rule
+  bool counts = false;      ///< a limit on counts, or connectedness, is part of it
+  std::string text;         ///< one sentence, for people
+};
+
+/// What it took.
+struct ModelStatistics {
+  std::int64_t cells = 0;           ///< of the result
+  std::int64_t contradictions = 0;  ///< cells left without a label
+  std::int64_t repairs = 0;         ///< regions taken back and labelled anew
+  std::int64_t blocks = 0;          ///< modified, Blocks only
+  std::int64_t blocksKept = 0;      ///< of these, left as they were
+  std::int64_t exact = 0;           ///< calls of the exact solver
+  bool whole = true;                ///< in one pass; false: in blocks
+};
+
+struct ModelResult {
+  ModelStatus status = ModelStatus::Complete;
+  std::vector<LabelGrid> frames;  ///< one grid a frame; empty unless Complete
+  /// For each frame and cell a cell of the example with the same label, whose neighbors agree best
+  /// with the result's; `Origin::example` is the number of the example, or of its frame.
+  std::vector<Origins> origins;
+  ModelConflict conflict;  ///< where Impossible
+  ModelStatistics statistics;
+
+  const LabelGrid& grid() const { return frames.front(); }
+};
+
+/// Discrete model synthesis (Merrell, "Example-based model synthesis", I3D 2007,
+/// doi:10.1145/1230100.1230119; thesis "Model Synthesis", University of North Carolina 2009,
+/// chapter 3): a grid of labels of any size in which every pair of neighbors is one that the
+/// example shows.
+///
+/// Each cell keeps the set of labels that are still possible there, always arc consistent
+/// (statements 3.5-3.7); cell after cell, in column order, takes one of them at random. Where a
+/// cell is left without any, a region around it is taken back and labelled anew, by search with
+/// backjumping and then by an exact solver, which finds a labelling or proves that there is none.
+/// So a request is met, or shown to be impossible, or the budget is spent; a result never breaks
+/// the example's rules.
+///
+/// `examples` are those that `adjacency` was found in (they share one numbering of labels); looks,
+/// cell size and origins come from them. The same bytes at any number of threads; `Blocks` runs
+/// blocks that do not touch in parallel. Cost: about O(cells x labels) with a small factor; memory
+/// about 64 bytes a cell and 4 bits a cell and label. Throws `InputError` for options out of range
+/// or that name cells or labels that do not exist.
+ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency& adjacency,
+                            const ModelOptions& options, const Progress& progress = {});
+ModelResult synthesizeModel(const LabelGrid& example, const ModelOptions& options,
+                            const Progress& progress = {});
+
+}  // namespace exemplar
