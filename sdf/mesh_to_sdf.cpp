@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -158,24 +159,26 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
   Array3D<std::uint8_t> inside(frame.size);
   const double limit = std::max(options.halfWidth, 2.0);  // signs look 2 voxels far
   progress.report("finding the surface", 0.1);
+  const auto tree = std::make_shared<const TriangleTree>(cornersOf(soup));
   if (source == SignSource::WindingNumber) {
-    const SolidTest solid(soup);
-    std::vector<Corners> bounding = boundingTriangles(soup, solid, frame.size, limit + 4);
+    const SolidTest solid(soup, tree);
+    std::vector<Corners> bounding = boundingTriangles(soup, *tree, solid, frame.size, limit + 4);
     if (progress.cancelled()) return {};
     progress.report("measuring distances", 0.4);
-    if (soup.closed) {
-      measure(TriangleTree(std::move(bounding)), limit, distances);
-      spreadSigns(solid, distances, inside);
-    } else {
+    if (!soup.closed) {
       measureOpen(solid, std::move(bounding), limit, distances, inside);
+    } else {
+      if (bounding == tree->triangles()) {
+        measure(*tree, limit, distances);
+      } else {
+        measure(TriangleTree(std::move(bounding)), limit, distances);
+      }
+      spreadSigns(solid, distances, inside);
     }
   } else {
-    std::vector<Corners> corners(soup.triangles.size());
-    for (std::size_t t = 0; t < corners.size(); ++t)
-      for (int c = 0; c < 3; ++c) corners[t][c] = soup.points[soup.triangles[t][c]];
     progress.report("measuring distances", 0.4);
-    if (source == SignSource::Flood) inside = floodedInside(corners, frame.size);
-    measure(TriangleTree(std::move(corners)), limit, distances);
+    if (source == SignSource::Flood) inside = floodedInside(tree->triangles(), frame.size);
+    measure(*tree, limit, distances);
     if (source == SignSource::RayParity) spreadSigns(ParityTest(soup), distances, inside);
   }
 

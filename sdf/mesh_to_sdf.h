@@ -13,11 +13,13 @@ namespace exemplar {
 
 /// Where the sign of the distance comes from.
 enum class SignSource {
-  Automatic,  ///< Flood for closed, manifold, oriented meshes without self-crossings; else Winding
-  Flood,      ///< OpenVDB's flood fill from outside: for closed meshes
-  WindingNumber,  ///< generalized winding number > 1/2: open, self-crossing and soup meshes
+  Automatic,  ///< WindingNumber; RayParity for meshes without openings that cannot be oriented
+  Flood,      ///< OpenVDB's flood fill from outside: for closed meshes whose orientation is not to
+              ///< be trusted; hollows count as inside, signs are right beyond half a voxel
+  WindingNumber,  ///< generalized winding number > 1/2 (`SolidTest`): closed, open, self-crossing
+                  ///< and soup meshes; overlaps are inside, openings are closed where it is 1/2
   RayParity,      ///< majority of the parities of rays in several directions (Embree): closed soups
-                  ///< whose triangles are not consistently oriented
+                  ///< whose triangles are not consistently oriented; overlaps are outside
 };
 
 struct MeshToSdfOptions {
@@ -30,13 +32,28 @@ struct MeshToSdfOptions {
   SignSource sign = SignSource::Automatic;
 };
 
-/// The signed distance of a mesh, by OpenVDB's mesh to volume, with the sign from `options.sign`.
+/// The signed distance of a mesh's solid.
 ///
 /// Samples stand at voxel centres: `box` is cut into cubes of `voxelSize`, the last ones reaching
 /// beyond it where its sides are no multiples, and sample (0, 0, 0) is the centre of the first.
-/// Geometry outside the box counts. Within half a voxel of the analytic distance on smooth shapes.
-/// The same bytes at any number of threads. Throws `InputError` for options out of range and fields
-/// that would not fit in memory.
+/// Geometry outside the box counts.
+///
+/// Distances are those of the nearest triangle, exact but for rounding to float: OpenVDB's mesh to
+/// volume, tried first, hands nearest triangles from voxel to voxel and is up to a voxel off beyond
+/// its first ring. Which triangles count follows from the sign. With WindingNumber the field is
+/// that of the outer surface alone: walls inside overlapping solids, sheets without thickness and
+/// what is buried are left out, openings are capped, so that contouring at 0 finds no inner
+/// surfaces; the crease where two solids cross is right to within a quarter of a voxel, a cap to
+/// half a voxel. With Flood and RayParity every triangle counts. Parts thinner than a voxel come
+/// out in pieces or not at all: sampling cannot hold them. Where nothing bounds a solid, all is
+/// outside.
+///
+/// Cost on one core: about 1 microsecond a sample in the band, 0.1 elsewhere, up to 1 for each
+/// sample of a mesh with openings; 20 a triangle for looking for crossings. A full field costs
+/// about 1 microsecond for every sample. Memory: 5 bytes a sample, 16 for meshes with openings, and
+/// 500 a triangle. The same bytes at any number of threads. Cancelled, it returns an empty field.
+/// Throws `InputError` for a mesh that does not `validate`, options out of range and fields that
+/// would not fit in memory.
 DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& options = {},
                         const Progress& progress = {});
 

@@ -22,12 +22,10 @@ void sampleDistances(const TriangleTree& surface, double limit, const Vec3i& low
           for (int i = first.x; i < end.x; ++i) distances(i, j, k) = static_cast<float>(limit);
       return;
     }
-    // A step of one voxel changes the distance by at most one: a tight bound to search within.
-    double bound = kInfinity;
+    // The triangle nearest to the sample before is near: a bound to search within.
+    std::uint32_t near = TriangleTree::kNone;
     serpentine(first, end, [&](const Vec3i& ijk) {
-      const double d = surface.distance(cast<double>(low + ijk), std::min(limit, bound));
-      distances[ijk] = static_cast<float>(d);
-      bound = d < limit ? d + 1.0001 : kInfinity;
+      distances[ijk] = static_cast<float>(surface.distance(cast<double>(low + ijk), limit, near));
     });
   });
 }

@@ -245,11 +245,8 @@ std::vector<std::uint32_t> partsOf(const TriangleSoup& soup, const Overlaps& ove
 
 }  // namespace
 
-std::vector<Corners> boundingTriangles(const TriangleSoup& soup, const SolidTest& solid,
-                                       const Vec3i& size, double reach) {
-  std::vector<Corners> all(soup.triangles.size());
-  for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = cornersOf(soup, t);
-  const TriangleTree tree(std::move(all));
+std::vector<Corners> boundingTriangles(const TriangleSoup& soup, const TriangleTree& tree,
+                                       const SolidTest& solid, const Vec3i& size, double reach) {
   const Sorter sorter(solid, tree, size, reach, soup.closed);
   const Overlaps overlaps = findOverlaps(soup, tree);
   const std::size_t count = soup.triangles.size();

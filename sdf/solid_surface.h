@@ -20,7 +20,8 @@ namespace exemplar {
 /// `reach` voxels from the samples are left out. About 10 microseconds a triangle for open soups,
 /// less for closed ones, where one answer holds for all triangles up to the next crossing. The same
 /// triangles in the same order at any number of threads.
-std::vector<Corners> boundingTriangles(const TriangleSoup& soup, const SolidTest& solid,
-                                       const Vec3i& size, double reach);
+/// `tree` holds the soup's triangles in their order.
+std::vector<Corners> boundingTriangles(const TriangleSoup& soup, const TriangleTree& tree,
+                                       const SolidTest& solid, const Vec3i& size, double reach);
 
 }  // namespace exemplar

@@ -52,13 +52,18 @@ bool isFlat(const Part& part) {
 }  // namespace
 
 struct SolidTest::Parts {
-  TriangleTree closed{{}};         // all closed components
-  TriangleTree flat{{}};           // all flat ones
-  std::vector<TriangleTree> open;  // the others
-  TriangleTree boxes{{}};          // their boxes, each as a triangle between two of its corners
+  std::shared_ptr<const TriangleTree> closed;  // all closed components; null: none
+  TriangleTree flat{{}};                       // all flat ones
+  std::vector<TriangleTree> open;              // the others
+  TriangleTree boxes{{}};  // their boxes, each as a triangle between two of its corners
 };
 
-SolidTest::SolidTest(const TriangleSoup& soup) : parts_(std::make_unique<Parts>()) {
+SolidTest::SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTree> tree)
+    : parts_(std::make_unique<Parts>()) {
+  if (soup.closed) {
+    parts_->closed = std::move(tree);
+    return;
+  }
   std::vector<Corners> closed;
   std::vector<Part> open(soup.componentClosed.size());
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
@@ -71,7 +76,7 @@ SolidTest::SolidTest(const TriangleSoup& soup) : parts_(std::make_unique<Parts>(
     open[component].triangles.push_back(corners);
     for (const Vec3d& p : corners) open[component].box.add(p);
   }
-  parts_->closed = TriangleTree(std::move(closed));
+  if (!closed.empty()) parts_->closed = std::make_shared<TriangleTree>(std::move(closed));
   std::erase_if(open, [](const Part& part) { return part.triangles.empty(); });
 
   std::vector<Corners> flat, boxes;
@@ -102,7 +107,7 @@ void SolidTest::inside(std::span<const Vec3d> points, std::span<std::uint8_t> re
       for (std::size_t p = 0; p < some.size(); ++p)
         in[p] |= (eitherWay ? std::abs(winding[p]) : winding[p]) > 0.5;
     };
-    if (parts_->closed.count() > 0) ask(parts_->closed, true);
+    if (parts_->closed) ask(*parts_->closed, true);
     if (parts_->flat.count() > 0) ask(parts_->flat, true);
     if (parts_->open.empty()) continue;
     // Outside its convex hull no component winds around a point by more than 1/2.

@@ -24,7 +24,8 @@ namespace exemplar {
 /// ones, which enclose nothing alone, count together.
 class SolidTest {
  public:
-  explicit SolidTest(const TriangleSoup& soup);
+  /// `tree` holds the soup's triangles in their order.
+  SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTree> tree);
   ~SolidTest();
 
   /// Whether each point is inside; fastest for points that stand together. Any number of threads

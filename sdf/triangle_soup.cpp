@@ -225,6 +225,12 @@ void connect(const std::vector<std::uint8_t>& onRim, TriangleSoup& soup) {
 
 }  // namespace
 
+std::vector<Corners> cornersOf(const TriangleSoup& soup) {
+  std::vector<Corners> corners(soup.triangles.size());
+  for (std::uint32_t t = 0; t < corners.size(); ++t) corners[t] = cornersOf(soup, t);
+  return corners;
+}
+
 TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale) {
   TriangleSoup soup;
   std::vector<std::uint32_t> indices;

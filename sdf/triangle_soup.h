@@ -46,6 +46,9 @@ inline Corners cornersOf(const TriangleSoup& soup, std::uint32_t t) {
   return {soup.points[a], soup.points[b], soup.points[c]};
 }
 
+/// The corners of all triangles, in their order.
+std::vector<Corners> cornersOf(const TriangleSoup& soup);
+
 /// O(n log n) for n triangles; positions are (xyz - origin) / scale.
 TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale);
 

@@ -82,6 +82,7 @@ TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::mov
   leaves_.resize(n);
   nodes_.resize(2 * static_cast<std::size_t>(leafCount(n)) - 1);
   moments_.resize(nodes_.size());
+  discs_.resize(nodes_.size());
   build(0, 0, n);
 }
 
@@ -186,15 +187,57 @@ void TriangleTree::setMoments(std::uint32_t node) {
     m.second[9] += (xy * a.z + xz * a.y + yz * a.x) / 3;
   }
   m.radius = std::sqrt(radius2);
+  Disc& disc = discs_[node];
+  disc.center = m.center;
+  disc.axis = normalized(m.area);
+  double across2 = 0;
+  for (std::uint32_t i = n.first; i < n.first + n.count; ++i)
+    for (const Vec3d& corner : leaves_[i]) {
+      const Vec3d d = corner - m.center;
+      const double along = dot(d, disc.axis);
+      const Vec3d across = d - disc.axis * along;
+      disc.halfHeight = std::max(disc.halfHeight, std::abs(along));
+      across2 = std::max(across2, dot(across, across));
+    }
+  // Rounding must not make the bound too large.
+  disc.radius = std::sqrt(across2) + 1e-12 * m.radius;
+  disc.halfHeight += 1e-12 * m.radius;
+}
+
+// A lower bound on the squared distance of a node's triangles, or anything from `enough` up.
+double TriangleTree::squaredBound(const Vec3d& p, std::uint32_t node, double enough) const {
+  const double box2 = squaredBoxDistance(p, nodes_[node].low, nodes_[node].high);
+  if (box2 >= enough) return box2;
+  const Disc& disc = discs_[node];
+  const Vec3d d = p - disc.center;
+  const double along = dot(d, disc.axis), distance2 = dot(d, d);
+  const double above = std::max(std::abs(along) - disc.halfHeight, 0.0);
+  const double beside =
+      std::max(std::sqrt(std::max(distance2 - along * along, 0.0)) - disc.radius, 0.0);
+  // A hair less, for what rounding took from the squares above.
+  const double disc2 = above * above + beside * beside - 1e-12 * distance2;
+  return std::max(box2, disc2);
 }
 
 double TriangleTree::distance(const Vec3d& p, double limit) const {
+  std::uint32_t near = kNone;
+  return distance(p, limit, near);
+}
+
+double TriangleTree::distance(const Vec3d& p, double limit, std::uint32_t& near) const {
   if (nodes_.empty()) return limit;
   double best2 = limit * limit;
+  std::uint32_t best = kNone;
+  if (near != kNone) {
+    const double d2 = squaredDistance(p, triangles_[near]);
+    if (d2 < best2) {
+      best2 = d2;
+      best = near;
+    }
+  }
   std::array<std::pair<std::uint32_t, double>, kMaxDepth> stack;
   std::size_t depth = 0;
-  stack[depth++] = {0, squaredBoxDistance(p, nodes_[0].low, nodes_[0].high)};
-  bool found = false;
+  stack[depth++] = {0, squaredBound(p, 0, best2)};
   while (depth > 0) {
     const auto [node, bound2] = stack[--depth];
     if (bound2 >= best2) continue;
@@ -204,24 +247,24 @@ double TriangleTree::distance(const Vec3d& p, double limit) const {
         const double d2 = squaredDistance(p, leaves_[i]);
         if (d2 < best2) {
           best2 = d2;
-          found = true;
+          best = order_[i];
         }
       }
       continue;
     }
-    const Node &l = nodes_[node + 1], &r = nodes_[n.right];
-    const double left2 = squaredBoxDistance(p, l.low, l.high);
-    const double right2 = squaredBoxDistance(p, r.low, r.high);
+    const double left2 = squaredBound(p, node + 1, best2);
+    const double right2 = squaredBound(p, n.right, best2);
     // The nearer child last, so that it comes off the stack first.
     if (left2 <= right2) {
-      stack[depth++] = {n.right, right2};
-      stack[depth++] = {node + 1, left2};
+      if (right2 < best2) stack[depth++] = {n.right, right2};
+      if (left2 < best2) stack[depth++] = {node + 1, left2};
     } else {
-      stack[depth++] = {node + 1, left2};
-      stack[depth++] = {n.right, right2};
+      if (left2 < best2) stack[depth++] = {node + 1, left2};
+      if (right2 < best2) stack[depth++] = {n.right, right2};
     }
   }
-  return found ? std::sqrt(best2) : limit;
+  near = best;
+  return best == kNone ? limit : std::sqrt(best2);
 }
 
 double TriangleTree::windingNumber(const Vec3d& p) const {

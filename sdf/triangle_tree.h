@@ -20,7 +20,7 @@ using Corners = std::array<Vec3d, 3>;
 
 /// A tree of boxes around triangles that answers how far the nearest one is and how often they wind
 /// around a point. Immutable, so any number of threads may ask. O(n log n) to build for n
-/// triangles, about 300 bytes a triangle.
+/// triangles, about 400 bytes a triangle.
 class TriangleTree {
  public:
   explicit TriangleTree(std::vector<Corners> triangles);
@@ -31,10 +31,15 @@ class TriangleTree {
   std::size_t count() const { return triangles_.size(); }
   /// Triangle `t` in the order of the constructor's argument.
   const Corners& triangle(std::uint32_t t) const { return triangles_[t]; }
+  const std::vector<Corners>& triangles() const { return triangles_; }
 
   /// The exact distance of `p` from the nearest triangle, or `limit` where none is nearer than
   /// that.
   double distance(const Vec3d& p, double limit) const;
+  /// The same, starting from a triangle that may be near (kNone: from nothing), which becomes the
+  /// nearest one.
+  double distance(const Vec3d& p, double limit, std::uint32_t& near) const;
+  static constexpr std::uint32_t kNone = 0xffffffff;
 
   /// The generalized winding number of the triangles around `p`: for closed surfaces that wind
   /// anticlockwise seen from outside 1 inside and 0 outside, the sum over overlapping ones, and
@@ -62,6 +67,14 @@ class TriangleTree {
     std::uint32_t count = 0;  // triangles below this node
     std::uint32_t right = 0;  // the right child; the left one is the next node; 0: a leaf
   };
+  // A flat cylinder around a node's triangles: their surface is flat enough at a small scale for it
+  // to be far tighter than the box, seen from afar.
+  struct Disc {
+    Vec3d center, axis;  // axis of length 1, or 0 where the triangles have no direction in common
+    double radius = 0, halfHeight = 0;
+  };
+
+  double squaredBound(const Vec3d& p, std::uint32_t node, double enough) const;
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   void setMoments(std::uint32_t node);
 
@@ -69,6 +82,7 @@ class TriangleTree {
   std::vector<std::uint32_t> order_;  // triangles as the leaves hold them
   std::vector<Corners> leaves_;       // their corners in that order
   std::vector<Node> nodes_;
+  std::vector<Disc> discs_;
   std::vector<ClusterMoments> moments_;
 };
 

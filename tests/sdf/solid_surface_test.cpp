@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include "mesh/primitives.h"
 #include "sdf/opening_caps.h"
@@ -29,9 +31,15 @@ bool inside(const Test& test, const Vec3d& p) {
   return in != 0;
 }
 
+std::shared_ptr<const TriangleTree> treeOf(const TriangleSoup& soup) {
+  return std::make_shared<const TriangleTree>(cornersOf(soup));
+}
+
+SolidTest solidOf(const TriangleSoup& soup) { return SolidTest(soup, treeOf(soup)); }
+
 std::vector<Corners> surfaceOf(const TriangleMesh& mesh, double reach = 1e9) {
   const TriangleSoup soup = makeSoup(mesh, {}, 1);
-  return boundingTriangles(soup, SolidTest(soup), {20, 20, 20}, reach);
+  return boundingTriangles(soup, *treeOf(soup), solidOf(soup), {20, 20, 20}, reach);
 }
 
 TEST(BoundingTriangles, OfASimpleSolidAreItsOwn) {
@@ -94,13 +102,11 @@ TEST(SolidTest, OpenComponentsNeitherTakeFromOthersNorAddToThem) {
   TriangleMesh mesh = without({{0, 0, 0}, {40, 40, 2}}, 2, 0);
   append(mesh, without({{15, 15, 1}, {25, 25, 12}}, 2, 1));
   const TriangleSoup soup = makeSoup(mesh, {}, 1);
-  std::vector<Corners> all;
-  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) all.push_back(cornersOf(soup, t));
-  const TriangleTree sum(all);
+  const TriangleTree sum(cornersOf(soup));
   const Vec3d beside{14.5, 20, 1.5}, below{20, 20, -1};
   EXPECT_LT(sum.windingNumber(beside), 0.45);
   EXPECT_GT(sum.windingNumber(below), 0.55);
-  const SolidTest solid(soup);
+  const SolidTest solid = solidOf(soup);
   EXPECT_TRUE(inside(solid, beside));
   EXPECT_FALSE(inside(solid, below));
   EXPECT_TRUE(inside(solid, {20, 20, 6}));
@@ -111,7 +117,7 @@ TEST(SolidTest, OpenComponentsNeitherTakeFromOthersNorAddToThem) {
 TEST(SolidTest, OpenComponentsMayBeInsideOut) {
   TriangleMesh mesh = without({{0, 0, 0}, {10, 10, 10}}, 2, 0);
   for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
-  const SolidTest solid(makeSoup(mesh, {}, 1));
+  const SolidTest solid = solidOf(makeSoup(mesh, {}, 1));
   EXPECT_TRUE(inside(solid, {5, 5, 5}));
   EXPECT_FALSE(inside(solid, {5, 5, 11}));
   EXPECT_FALSE(inside(solid, {5, 5, -1}));
@@ -127,9 +133,9 @@ TEST(SolidTest, PartsWithRimsSideBySideCountTogether) {
   std::erase_if(ends.triangles, [&](const auto& t) { return !isEnd(t); });
   std::erase_if(tube.triangles, isEnd);
   for (Vec3d& p : ends.positions) p.z += p.z > 7 ? 0.1 : -0.1;
-  EXPECT_FALSE(inside(SolidTest(makeSoup(tube, {}, 1)), {10, 10, 2.3}));
+  EXPECT_FALSE(inside(solidOf(makeSoup(tube, {}, 1)), {10, 10, 2.3}));
   append(tube, ends);
-  const SolidTest solid(makeSoup(tube, {}, 1));
+  const SolidTest solid = solidOf(makeSoup(tube, {}, 1));
   EXPECT_TRUE(inside(solid, {10, 10, 2.3}));
   EXPECT_TRUE(inside(solid, {10, 10, 11.7}));
   EXPECT_FALSE(inside(solid, {10, 10, 1.5}));
@@ -147,7 +153,7 @@ TEST(SolidTest, PartsThatWereNeverJoinedEncloseTogether) {
     for (Vec3d& p : face.positions) p = middle + (p - middle) * 0.99;
     append(mesh, face);
   }
-  const SolidTest solid(makeSoup(mesh, {}, 1));
+  const SolidTest solid = solidOf(makeSoup(mesh, {}, 1));
   EXPECT_TRUE(inside(solid, {7, 7, 7}));
   EXPECT_TRUE(inside(solid, {3, 3, 3}));
   EXPECT_FALSE(inside(solid, {1, 7, 7}));
@@ -155,7 +161,7 @@ TEST(SolidTest, PartsThatWereNeverJoinedEncloseTogether) {
 
 TEST(ParityTest, AgreesWithTheWindingNumberOnClosedMeshes) {
   const TriangleSoup soup = makeSoup(makeTorus({10, 10, 10}, {1, 2, 3}, 6, 2), {}, 1);
-  const SolidTest solid(soup);
+  const SolidTest solid = solidOf(soup);
   const ParityTest parity(soup);
   const Random random(6);
   int in = 0;
@@ -187,13 +193,13 @@ TEST(OpeningCaps, CloseTheOpeningOfACylinder) {
   });
   const TriangleSoup soup = makeSoup(tube, {}, 1);
   ASSERT_FALSE(soup.closed);
-  const SolidTest solid(soup);
+  const SolidTest solid = solidOf(soup);
   const Vec3i size{21, 21, 36};
   Array3D<std::uint8_t> in(size);
   for (std::size_t s = 0; s < in.count(); ++s)
     in.values()[s] = inside(solid, cast<double>(in.ijk(s)));
   Array3D<float> distances(size);
-  const auto bounding = boundingTriangles(soup, solid, size, 9);
+  const auto bounding = boundingTriangles(soup, *treeOf(soup), solid, size, 9);
   sampleDistances(TriangleTree(bounding), 2, {}, distances);
   const auto caps = openingCaps(solid, {}, in, distances);
   // Two discs, which bulge inwards and end somewhere within the rim's cells.

@@ -95,6 +95,31 @@ TEST(TriangleTree, FindsTheNearestTriangleExactly) {
   }
 }
 
+TEST(TriangleTree, MissesNoTriangleOfASurfaceSeenFromNearOrFar) {
+  // Discs are tight on surfaces, and degenerate on sheets, on needles and at a single place.
+  const Box3d sheet{{-1, -1, 0}, {1, 1, 0}}, needle{{-1e-7, -1e-7, -1}, {1e-7, 1e-7, 1}};
+  const std::vector<TriangleMesh> meshes{
+      makeSphere({}, 1, 12), makeTorus({}, {1, 2, 3}, 0.7, 0.25, 40, 20), makeBox(sheet),
+      makeBox(needle), makeBox({{0.3, 0.3, 0.3}, {0.3, 0.3, 0.3}})};
+  for (const TriangleMesh& mesh : meshes) {
+    const std::vector<Corners> triangles = cornersOf(mesh);
+    const TriangleTree tree(triangles);
+    std::uint32_t near = TriangleTree::kNone;
+    for (int trial = 0; trial < 200; ++trial) {
+      const Vec3d p = randomPoint(trial, -1.5, 1.5) * (trial % 4 == 0 ? 100 : 1);
+      double nearest = kInfinity;
+      for (const Corners& t : triangles) nearest = std::min(nearest, squaredDistance(p, t));
+      ASSERT_EQ(tree.distance(p, kInfinity), std::sqrt(nearest));
+      // From the triangle that was nearest to another point.
+      ASSERT_EQ(tree.distance(p, kInfinity, near), std::sqrt(nearest));
+      ASSERT_EQ(squaredDistance(p, triangles[near]), nearest);
+    }
+    std::uint32_t none = 0;
+    EXPECT_EQ(tree.distance({9, 9, 9}, 1, none), 1);
+    EXPECT_EQ(none, TriangleTree::kNone);
+  }
+}
+
 TEST(TriangleTree, WindsOnceInsideClosedSurfacesAndNotOutside) {
   for (const TriangleMesh& mesh :
        {makeSphere({}, 1, 20), makeTorus({}, {0, 0, 1}, 0.7, 0.25, 80, 40)}) {
