@@ -54,6 +54,7 @@ void addLikeness(List& list, const Likeness& l) {
   list.add("pieces_per_million_cells", l.pieces.resultPerMillion, "whole pieces in the result");
   list.add("pieces_per_million_cells_example", l.pieces.examplePerMillion,
            "whole pieces in the example");
+  list.add("pieces_depth", l.pieces.depth, "voxels below the surface where pieces begin");
   list.add("broken_share", l.pieces.brokenShare,
            "solid in pieces under half of the example's smallest; 0 is best");
   list.add("windows", l.dense.windows, "windows drawn for lp_dense");

@@ -44,7 +44,7 @@ Likeness measureLikeness(const DistanceField& example, const DistanceField& resu
     likeness.occupancyRatio = likeness.resultOccupancy / likeness.exampleOccupancy;
   if (likeness.exampleSurface > 0)
     likeness.surfaceRatio = likeness.resultSurface / likeness.exampleSurface;
-  likeness.pieces = comparePieces(e, r);
+  likeness.pieces = comparePieces(example, result);
   return likeness;
 }
 

@@ -92,13 +92,14 @@ constexpr std::array<Direction, 13> kDirections{{{{1, 0, 0}, kAxis},
 
 }  // namespace
 
-Occupancy::Occupancy(const DistanceField& field) : size_(field.size()) {
+Occupancy::Occupancy(const DistanceField& field, double depth) : size_(field.size()) {
   if (field.values.empty()) return;
   // A word before, one for bits() to reach into, and one that a window's 64 cells may start in.
   wordsPerRow_ = static_cast<std::size_t>((size_.x + 63) / 64) + 3;
   const std::size_t rows = static_cast<std::size_t>(size_.y + 2 * kMargin) *
                            static_cast<std::size_t>(size_.z + 2 * kMargin);
   words_.resize(rows * wordsPerRow_);
+  const auto level = static_cast<float>(-depth * field.voxelSize);
   solidCells_ = parallelSum<std::int64_t>(0, size_.z, 8, [&](std::size_t z0, std::size_t z1) {
     std::int64_t solid = 0;
     for (int z = static_cast<int>(z0); z < static_cast<int>(z1); ++z)
@@ -106,7 +107,7 @@ Occupancy::Occupancy(const DistanceField& field) : size_(field.size()) {
         std::uint64_t* words = words_.data() + (row(y, z) - words_.data()) + 1;
         const float* values = &field.values(0, y, z);
         for (int x = 0; x < size_.x; ++x) {
-          const std::uint64_t bit = values[x] < 0 ? 1 : 0;
+          const std::uint64_t bit = values[x] < level ? 1 : 0;
           words[x >> 6] |= bit << (x & 63);
           solid += static_cast<std::int64_t>(bit);
         }

@@ -21,7 +21,8 @@ class Occupancy {
   static constexpr int kMargin = 8;  ///< empty cells beyond each face that may be asked for
 
   Occupancy() = default;
-  explicit Occupancy(const DistanceField& field);
+  /// `depth` > 0 counts only what lies deeper than that below the surface, in voxels.
+  explicit Occupancy(const DistanceField& field, double depth = 0);
 
   const Vec3i& size() const { return size_; }
   std::int64_t cells() const { return volume(size_); }

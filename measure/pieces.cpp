@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <utility>
 
 #include "measure/union_find.h"
 
 namespace exemplar {
 namespace {
+
+constexpr double kContact = 0.5;       // voxels: thinner contacts do not join bodies
+constexpr double kMostlyWhole = 0.25;  // of the solid in whole pieces
 
 /// Solid cells x0..x1 (excluded) of one row.
 struct Run {
@@ -45,8 +49,18 @@ void joinRows(const std::vector<Run>& runs, std::size_t a, std::size_t aEnd, std
   }
 }
 
-double perMillion(std::int64_t pieces, const Occupancy& occupancy) {
-  return 1e6 * static_cast<double>(pieces) / static_cast<double>(occupancy.cells());
+double perMillion(std::int64_t pieces, const DistanceField& field) {
+  return 1e6 * static_cast<double>(pieces) / static_cast<double>(field.values.count());
+}
+
+/// The share of the solid that is in whole pieces.
+double wholeShare(const std::vector<Component>& components) {
+  std::int64_t whole = 0, all = 0;
+  for (const Component& c : components) {
+    all += c.cells;
+    if (!c.touchesFace) whole += c.cells;
+  }
+  return all == 0 ? 0 : static_cast<double>(whole) / static_cast<double>(all);
 }
 
 }  // namespace
@@ -82,28 +96,35 @@ std::vector<Component> connectedComponents(const Occupancy& occupancy) {
   return byRoot;
 }
 
-Pieces comparePieces(const Occupancy& example, const Occupancy& result) {
-  const auto exampleComponents = connectedComponents(example);
-  const auto resultComponents = connectedComponents(result);
+Pieces comparePieces(const DistanceField& example, const DistanceField& result) {
   Pieces pieces;
+  std::vector<Component> components = connectedComponents(Occupancy(example));
+  if (wholeShare(components) < kMostlyWhole) {
+    auto deeper = connectedComponents(Occupancy(example, kContact));
+    if (wholeShare(deeper) >= kMostlyWhole) {
+      components = std::move(deeper);
+      pieces.depth = kContact;
+    }
+  }
   std::int64_t largest = 0;
-  for (const Component& c : exampleComponents) {
+  for (const Component& c : components) {
     largest = std::max(largest, c.cells);
     if (c.touchesFace) continue;
     if (++pieces.example == 1 || c.cells < pieces.smallest) pieces.smallest = c.cells;
   }
   if (pieces.example == 0) pieces.smallest = largest;
 
+  const Occupancy solid(result, pieces.depth);
   std::int64_t broken = 0;
-  for (const Component& c : resultComponents) {
+  for (const Component& c : connectedComponents(solid)) {
     if (c.touchesFace) continue;
     ++pieces.result;
     if (2 * c.cells < pieces.smallest) broken += c.cells;
   }
   pieces.examplePerMillion = perMillion(pieces.example, example);
   pieces.resultPerMillion = perMillion(pieces.result, result);
-  if (result.solidCells() > 0)
-    pieces.brokenShare = static_cast<double>(broken) / static_cast<double>(result.solidCells());
+  if (solid.solidCells() > 0)
+    pieces.brokenShare = static_cast<double>(broken) / static_cast<double>(solid.solidCells());
   return pieces;
 }
 

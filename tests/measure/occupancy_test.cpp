@@ -57,6 +57,16 @@ TEST(Occupancy, ZeroAndNanAreNotSolid) {
   EXPECT_EQ(Occupancy(field).solidCells(), 1);
 }
 
+TEST(Occupancy, OfADepthBeginsBelowTheSurface) {
+  DistanceField field = makeField({30, 1, 1}, [](const Vec3d& p) { return p.x - 20.25; });
+  EXPECT_EQ(Occupancy(field).solidCells(), 21);
+  EXPECT_EQ(Occupancy(field, 0.5).solidCells(), 20);
+  EXPECT_EQ(Occupancy(field, 3).solidCells(), 18);
+  for (float& v : field.values.values()) v *= 0.25f;
+  field.voxelSize = 0.25;
+  EXPECT_EQ(Occupancy(field, 3).solidCells(), 18);
+}
+
 // Crofton's formula with 13 directions is exact for isotropic surfaces up to the discretisation,
 // whose error on a digital ball of radius r falls as 1 / r: 2 % is ample at r = 10 and more.
 TEST(SurfaceDensity, IsTheAreaOfABall) {

@@ -19,7 +19,7 @@ using testing::makeField;
 using testing::noise;
 using testing::solidField;
 
-Occupancy cells(const Vec3i& size, const std::vector<Vec3i>& solid) {
+Occupancy cellsOf(const Vec3i& size, const std::vector<Vec3i>& solid) {
   DistanceField field = emptyField(size);
   for (const Vec3i& c : solid) field.values[c] = -1;
   return Occupancy(field);
@@ -66,14 +66,14 @@ TEST(ConnectedComponents, AgreeWithAFloodFill) {
 }
 
 TEST(ConnectedComponents, NeedAFaceInCommon) {
-  EXPECT_EQ(connectedComponents(cells({9, 9, 9}, {{3, 3, 3}, {4, 3, 3}})).size(), 1u);
-  EXPECT_EQ(connectedComponents(cells({9, 9, 9}, {{3, 3, 3}, {4, 4, 3}})).size(), 2u);
-  EXPECT_EQ(connectedComponents(cells({9, 9, 9}, {{3, 3, 3}, {4, 4, 4}})).size(), 2u);
+  EXPECT_EQ(connectedComponents(cellsOf({9, 9, 9}, {{3, 3, 3}, {4, 3, 3}})).size(), 1u);
+  EXPECT_EQ(connectedComponents(cellsOf({9, 9, 9}, {{3, 3, 3}, {4, 4, 3}})).size(), 2u);
+  EXPECT_EQ(connectedComponents(cellsOf({9, 9, 9}, {{3, 3, 3}, {4, 4, 4}})).size(), 2u);
 }
 
 TEST(Pieces, AreComponentsThatTouchNoFace) {
   const Vec3i n{40, 40, 40};
-  const Occupancy o(balls(n, 5, {{10, 10, 10}, {28, 28, 28}, {10, 38, 10}, {20, 10, 28}}));
+  const DistanceField o = balls(n, 5, {{10, 10, 10}, {28, 28, 28}, {10, 38, 10}, {20, 10, 28}});
   const Pieces pieces = comparePieces(o, o);
   EXPECT_EQ(pieces.example, 3);  // one leans over a face
   EXPECT_EQ(pieces.result, 3);
@@ -85,11 +85,11 @@ TEST(Pieces, AreComponentsThatTouchNoFace) {
 
 TEST(Pieces, SmallerThanHalfOfTheSmallestAreBroken) {
   const Vec3i n{40, 40, 40};
-  const Occupancy whole(balls(n, 6, {{12, 12, 12}, {27, 27, 27}}));
+  const DistanceField whole = balls(n, 6, {{12, 12, 12}, {27, 27, 27}});
   const auto both = [&](double radius) {
-    return Occupancy(makeField(n, [&](const Vec3d& p) {
+    return makeField(n, [&](const Vec3d& p) {
       return std::min(length(p - Vec3d{12, 12, 12}) - 6, length(p - Vec3d{27, 27, 27}) - radius);
-    }));
+    });
   };
   // A ball of 0.8 of the radius has 0.51 of the volume, one of 0.7 has 0.34. The digital volumes
   // are within 5 % of these at a radius of 4 and more.
@@ -101,7 +101,8 @@ TEST(Pieces, SmallerThanHalfOfTheSmallestAreBroken) {
 
 TEST(Pieces, CutByAFaceAreNotBroken) {
   const Vec3i n{40, 40, 40};
-  const Occupancy whole(ball(n, {20, 20, 20}, 6)), cut(balls(n, 6, {{20, 20, 20}, {-4, 10, 10}}));
+  const DistanceField whole = ball(n, {20, 20, 20}, 6);
+  const DistanceField cut = balls(n, 6, {{20, 20, 20}, {-4, 10, 10}});
   EXPECT_EQ(comparePieces(whole, cut).brokenShare, 0);
   EXPECT_EQ(comparePieces(whole, cut).result, 1);
 }
@@ -109,11 +110,11 @@ TEST(Pieces, CutByAFaceAreNotBroken) {
 TEST(Pieces, DebrisOverGroundIsBroken) {
   const Vec3i n{40, 40, 40};
   const auto ground = [](const Vec3d& p) { return p.z - 15 - 2 * std::sin(p.x / 5); };
-  const Occupancy example(makeField(n, ground));
+  const DistanceField example = makeField(n, ground);
   EXPECT_EQ(comparePieces(example, example).brokenShare, 0);
-  const Occupancy littered(makeField(n, [&](const Vec3d& p) {
+  const DistanceField littered = makeField(n, [&](const Vec3d& p) {
     return std::min(ground(p), length(p - Vec3d{20, 20, 28}) - 3);
-  }));
+  });
   const Pieces pieces = comparePieces(example, littered);
   EXPECT_EQ(pieces.example, 0);
   EXPECT_EQ(pieces.result, 1);
@@ -121,12 +122,51 @@ TEST(Pieces, DebrisOverGroundIsBroken) {
   EXPECT_LT(pieces.brokenShare, 0.006);  // a ball of 113 cells in 25,000
 }
 
+TEST(Pieces, OfBodiesThatRestOnEachOtherBeginBelowTheSurface) {
+  // 27 balls that touch each other, and one that touches them and the box: one component of cells.
+  const Vec3i n{56, 56, 56};
+  std::vector<Vec3d> centres;
+  for (int b = 0; b < 27; ++b)
+    centres.push_back({15.5 + 12 * (b % 3), 15.5 + 12 * (b / 3 % 3), 15.5 + 12 * (b / 9)});
+  // `crack` is half the width of a crack through the lowest nine.
+  const auto heap = [&](double crack) {
+    return makeField(n, [&, crack](const Vec3d& p) {
+      double phi = length(p - Vec3d{3.5, 15.5, 15.5}) - 6;
+      for (std::size_t b = 0; b < centres.size(); ++b) {
+        double ball = length(p - centres[b]) - 6;
+        if (b < 9) ball = std::max(ball, crack - std::abs(p.x - centres[b].x));
+        phi = std::min(phi, ball);
+      }
+      return phi;
+    });
+  };
+  const DistanceField whole = heap(-1);
+  EXPECT_EQ(connectedComponents(Occupancy(whole)).size(), 1u);
+  const Pieces pieces = comparePieces(whole, whole);
+  EXPECT_EQ(pieces.depth, 0.5);
+  EXPECT_EQ(pieces.example, 27);
+  EXPECT_EQ(pieces.brokenShare, 0);
+
+  // Nine of them in halves that lack the crack's two layers of cells, a quarter of the ball.
+  const Pieces cracked = comparePieces(whole, heap(0.6));
+  EXPECT_EQ(cracked.result, 18 + 2 * 9);
+  EXPECT_NEAR(cracked.brokenShare, 9 * 0.75 / (18 + 9 * 0.75), 0.04);
+}
+
+TEST(Pieces, AreCountedAtTheSurfaceWhereTheyAreWholeThere) {
+  const Vec3i n{40, 40, 40};
+  const DistanceField field = balls(n, 5, {{10, 10, 10}, {28, 28, 28}});
+  EXPECT_EQ(comparePieces(field, field).depth, 0);
+  const DistanceField ground = makeField(n, [](const Vec3d& p) { return p.z - 15; });
+  EXPECT_EQ(comparePieces(ground, field).depth, 0);
+}
+
 TEST(Pieces, OfNothingAreNone) {
-  const Occupancy nothing(emptyField({20, 20, 20})), dot(ball({20, 20, 20}, {9, 9, 9}, 3));
+  const DistanceField nothing = emptyField({20, 20, 20}), dot = ball({20, 20, 20}, {9, 9, 9}, 3);
   for (const Pieces& p :
        {comparePieces(nothing, dot), comparePieces(dot, nothing), comparePieces(nothing, nothing)})
     EXPECT_EQ(p.brokenShare, 0);
-  EXPECT_EQ(comparePieces(Occupancy(solidField({9, 9, 9})), dot).result, 1);
+  EXPECT_EQ(comparePieces(solidField({9, 9, 9}), dot).result, 1);
 }
 
 }  // namespace
