@@ -16,11 +16,19 @@ namespace exemplar {
 /// What a cell is: a number from 0 to the grid's label count less one. By custom 0 is empty.
 using Label = std::uint16_t;
 
+/// The most labels that a grid can have.
+inline constexpr int kMostLabels = 65536;
+
 /// What a label looks like, where that is known.
 struct LabelLook {
   std::string name;                                    ///< of its object or material; may be empty
   std::array<float, 4> color{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear RGB and opacity, 0..1
+  /// Lines that describe its objects in the text format; carried from file to file, not read.
+  std::vector<std::string> objects;
 };
+
+/// Whether cells of a label hold nothing: its opacity is 0.
+inline bool isEmpty(const LabelLook& look) { return !(look.color[3] > 0); }
 
 /// A box of cells, each with a label; z is up. The example of model synthesis and its result
 /// (Merrell 2007, section 3; thesis, section 3.1).
@@ -29,9 +37,21 @@ struct LabelGrid {
   std::vector<LabelLook> labels;  ///< one for each label there may be; cells hold only these
   Vec3d cellSize{1, 1, 1};        ///< world units
   Vec3d origin{};                 ///< world position of the lowest corner of cell (0, 0, 0)
+  std::string name;               ///< of the scene; may be empty
 
   const Vec3i& size() const { return cells.size(); }
   int labelCount() const { return static_cast<int>(labels.size()); }
 };
+
+/// Throws `InputError` ("NAME: ...") unless the grid has a cell, every cell's label has a look,
+/// colours are 0..1 and the cells' size and place are finite, the size positive.
+void validate(const LabelGrid& grid, const std::string& name);
+
+/// The look of label 0 in files that do not tell: empty.
+LabelLook emptyLook();
+
+/// A colour for a label whose own is not known, linear RGB and opacity 1: neighbouring numbers
+/// differ clearly, and a number has the same colour in every grid.
+std::array<float, 4> distinctColor(int label);
 
 }  // namespace exemplar

@@ -1,0 +1,115 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "sdf/vdb_grids.h"
+
+#include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "sdf/openvdb_ready.h"
+
+namespace exemplar {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where the unique id stands in a .vdb file (its header: 8 bytes of magic number, three 4-byte
+// versions, 1 byte for "has offsets") and how long it is.
+constexpr std::size_t kIdBegin = 21, kIdLength = 36;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw InputError(path.string() + ": " + what);
+}
+
+std::uint64_t hash(std::string_view bytes, std::uint64_t h) {
+  for (const char c : bytes) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return h;
+}
+
+// A stream over bytes that are already in memory, without a second copy of them. It gives all of
+// what is asked for or nothing: OpenVDB takes the sizes of some blocks from the file and checks
+// them only after reading, so that a damaged size would write past the end of a buffer.
+class BytesBuffer : public std::streambuf {
+ public:
+  explicit BytesBuffer(std::string& bytes) {
+    setg(bytes.data(), bytes.data(), bytes.data() + bytes.size());
+  }
+
+ protected:
+  std::streamsize xsgetn(char* to, std::streamsize count) override {
+    if (count < 0 || count > egptr() - gptr()) return 0;
+    std::memcpy(to, gptr(), static_cast<std::size_t>(count));
+    setg(eback(), gptr() + count, egptr());
+    return count;
+  }
+  pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
+    const off_type base = from == std::ios_base::beg   ? 0
+                          : from == std::ios_base::cur ? gptr() - eback()
+                                                       : egptr() - eback();
+    const off_type to = base + offset;
+    if (to < 0 || to > egptr() - eback()) return pos_type(off_type(-1));
+    setg(eback(), eback() + to, egptr());
+    return pos_type(to);
+  }
+  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override {
+    return seekoff(off_type(position), std::ios_base::beg, mode);
+  }
+};
+
+}  // namespace
+
+void openvdbReady() { openvdb::initialize(); }
+
+void writeVdbGrids(const fs::path& path, const openvdb::GridCPtrVec& grids) {
+  OutputFile out(path);
+  try {
+    openvdb::io::File file(out.temporaryPath().string());
+    file.write(grids);
+    file.close();
+  } catch (const std::exception& error) {
+    fail(path, std::string("cannot be written: ") + error.what());
+  }
+  std::string bytes = readFile(out.temporaryPath());
+  if (bytes.size() < kIdBegin + kIdLength) fail(path, "cannot be written: the disk may be full");
+  bytes.replace(kIdBegin, kIdLength, kIdLength, '0');
+  const std::uint64_t a = hash(bytes, 0xcbf29ce484222325u), b = hash(bytes, a);
+  char id[kIdLength + 1];
+  std::snprintf(id, sizeof id, "%08x-%04x-4%03x-8%03x-%012llx", static_cast<unsigned>(a >> 32),
+                static_cast<unsigned>(a >> 16 & 0xffff), static_cast<unsigned>(a & 0xfff),
+                static_cast<unsigned>(b >> 48 & 0xfff),
+                static_cast<unsigned long long>(b & 0xffffffffffff));
+  bytes.replace(kIdBegin, kIdLength, id, kIdLength);
+  out.write(bytes);
+  out.commit();
+}
+
+void withVdbGrids(const fs::path& path,
+                  const std::function<void(const openvdb::GridPtrVec&)>& use) {
+  openvdbReady();
+  std::string bytes = readFile(path);
+  try {
+    BytesBuffer buffer(bytes);
+    std::istream in(&buffer);
+    // OpenVDB does not look at the stream's state; with this, a read beyond the end throws.
+    in.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+    openvdb::io::Stream stream(in, /*delayLoad=*/false);
+    use(*stream.getGrids());
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    fail(path, "not a whole OpenVDB file (" + what + ")");
+  }
+}
+
+}  // namespace exemplar

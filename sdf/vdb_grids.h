@@ -1,0 +1,25 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <filesystem>
+#include <functional>
+
+namespace exemplar {
+
+// OpenVDB files as grids of OpenVDB's own, for what reads and writes grids of one kind. Slow to
+// compile: include it in few sources.
+
+/// Writes grids to a file, whole or not at all. The same grids give the same bytes: a hash of the
+/// content stands in place of the random id that OpenVDB gives each file. Throws `InputError`.
+void writeVdbGrids(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids);
+
+/// Calls `use` with the grids of a file. Whatever OpenVDB throws, within `use` too, becomes an
+/// `InputError` naming the file.
+void withVdbGrids(const std::filesystem::path& path,
+                  const std::function<void(const openvdb::GridPtrVec&)>& use);
+
+}  // namespace exemplar

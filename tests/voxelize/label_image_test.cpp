@@ -1,0 +1,102 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "voxelize/label_image.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/random.h"
+
+namespace exemplar {
+namespace {
+
+/// RGBA pixels drawn from four colours, one of them transparent.
+Image8 randomImage(int width, int height, std::uint64_t seed) {
+  const std::array<std::uint8_t, 4> colors[] = {
+      {0, 0, 0, 255}, {255, 0, 0, 255}, {10, 20, 30, 255}, {0, 0, 0, 0}};
+  const Random random(seed, 0x1a6e);
+  Image8 image{width, height, 4, {}};
+  for (int n = 0; n < width * height; ++n) {
+    for (const std::uint8_t c : colors[random.below(4, n)]) image.pixels.push_back(c);
+  }
+  return image;
+}
+
+TEST(LabelsFromImage, EachColourIsALabelAndYIsUp) {
+  // From the top: red, green / green, transparent.
+  const Image8 image{2, 2, 4, {255, 0, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 9, 9, 9, 0}};
+  const LabelGrid grid = labelsFromImage(image, "f").grid;
+  EXPECT_EQ(grid.size(), (Vec3i{2, 2, 1}));
+  EXPECT_EQ(grid.labelCount(), 3);
+  EXPECT_EQ(grid.cells(0, 1, 0), 0);
+  EXPECT_EQ(grid.cells(1, 1, 0), 1);
+  EXPECT_EQ(grid.cells(0, 0, 0), 1);
+  EXPECT_EQ(grid.cells(1, 0, 0), 2);
+  EXPECT_EQ(grid.labels[0].color, (std::array<float, 4>{1, 0, 0, 1}));
+  EXPECT_TRUE(isEmpty(grid.labels[2]));
+}
+
+TEST(LabelsFromImage, PicturesOfAnyChannelsAgree) {
+  const Image8 gray{2, 1, 1, {7, 200}};
+  const Image8 rgb{2, 1, 3, {7, 7, 7, 200, 200, 200}};
+  EXPECT_EQ(labelsFromImage(gray, "f").grid.labels[1].color,
+            labelsFromImage(rgb, "f").grid.labels[1].color);
+}
+
+TEST(LabelsFromImage, PiecesArePutBackAsTheyWere) {
+  const Image8 image = randomImage(12, 8, 1);
+  for (const int piece : {1, 2, 4}) {
+    const ImageLabels labels = labelsFromImage(image, "f", {.piece = piece});
+    EXPECT_EQ(labels.grid.size(), (Vec3i{12 / piece, 8 / piece, 1}));
+    EXPECT_EQ(imageFromLabels(labels.grid, labels).pixels, image.pixels) << piece;
+  }
+}
+
+TEST(LabelsFromImage, PiecesThatOverlapArePutBackAsTheyWere) {
+  const Image8 image = randomImage(11, 7, 2);
+  for (const int piece : {1, 2, 3}) {
+    const ImageLabels labels = labelsFromImage(image, "f", {.piece = piece, .overlap = true});
+    EXPECT_EQ(labels.grid.size(), (Vec3i{12 - piece, 8 - piece, 1}));
+    EXPECT_EQ(imageFromLabels(labels.grid, labels).pixels, image.pixels) << piece;
+  }
+}
+
+TEST(LabelsFromImage, LeftOverPixelsLieAtTheTopAndRight) {
+  const Image8 image = randomImage(5, 5, 3);
+  const ImageLabels labels = labelsFromImage(image, "f", {.piece = 2});
+  const Image8 back = imageFromLabels(labels.grid, labels);
+  ASSERT_EQ(back.width, 4);
+  ASSERT_EQ(back.height, 4);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      EXPECT_TRUE(std::equal(back.at(x, y), back.at(x, y) + 4, image.at(x, y + 1)));
+    }
+  }
+}
+
+TEST(LabelsFromImage, ColoursOfAGridMakeItsPicture) {
+  const Image8 image = randomImage(6, 4, 4);
+  EXPECT_EQ(imageFromLabels(labelsFromImage(image, "f").grid).pixels, image.pixels);
+}
+
+TEST(LabelsFromImage, BadInputIsRefused) {
+  const Image8 image = randomImage(6, 4, 4);
+  EXPECT_THROW(labelsFromImage(image, "f", {.piece = 5}), InputError);
+  EXPECT_THROW(labelsFromImage(image, "f", {.piece = 0}), InputError);
+  ImageLabels labels = labelsFromImage(image, "f");
+  labels.grid.cells(0, 0, 0) = 77;
+  EXPECT_THROW(imageFromLabels(labels.grid, labels), InputError);
+  LabelGrid deep = labels.grid;
+  deep.cells = Array3D<Label>({2, 2, 2});
+  EXPECT_THROW(imageFromLabels(deep), InputError);
+  Image8 many{300, 300, 4, {}};
+  for (int n = 0; n < 90000; ++n) {
+    for (const int c : {n & 255, n >> 8 & 255, n >> 16, 255}) many.pixels.push_back(c);
+  }
+  EXPECT_THROW(labelsFromImage(many, "f"), InputError);
+}
+
+}  // namespace
+}  // namespace exemplar

@@ -1,0 +1,39 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "voxelize/label_file.h"
+
+#include "core/error.h"
+#include "core/file.h"
+#include "voxelize/label_image.h"
+
+namespace exemplar {
+
+bool isLabelFile(const std::filesystem::path& path) {
+  const std::string ending = lowerExtension(path);
+  return ending == ".txt" || ending == ".vox";
+}
+
+LabelGrid readLabels(const std::filesystem::path& path) {
+  const std::string ending = lowerExtension(path), name = path.string();
+  if (ending == ".txt") return parseLabelText(readFile(path), name);
+  if (ending == ".vox") return parseVox(readFile(path), name);
+  if (ending == ".vdb") return readLabelsVdb(path);
+  if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
+    return labelsFromImage(decodeImage(readFile(path), name), name).grid;
+  }
+  throw InputError(name + ": not a kind of label grid; use .txt .vox .vdb .png or .jpg");
+}
+
+void writeLabels(const std::filesystem::path& path, const LabelGrid& grid) {
+  const std::string ending = lowerExtension(path), name = path.string();
+  validate(grid, name);
+  if (ending == ".txt") return writeFile(path, formatLabelText(grid));
+  if (ending == ".vox") return writeFile(path, formatVox(grid, name));
+  if (ending == ".vdb") return writeLabelsVdb(path, grid);
+  if (ending == ".png") return writePng(path, imageFromLabels(grid));
+  throw InputError(name + ": cannot write labels to this kind of file; use one of " +
+                   kLabelEndings);
+}
+
+}  // namespace exemplar

@@ -1,0 +1,143 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "voxelize/label_image.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "mesh/color.h"
+
+namespace exemplar {
+namespace {
+
+using Rgba = std::array<std::uint8_t, 4>;
+
+Rgba pixelAt(const Image8& image, int x, int y) {
+  const std::uint8_t* p = image.at(x, y);
+  const bool gray = image.channels < 3;
+  const std::uint8_t alpha = image.channels == 2 ? p[1] : image.channels == 4 ? p[3] : 255;
+  if (alpha == 0) return {0, 0, 0, 0};  // whatever lies beneath is not seen
+  return gray ? Rgba{p[0], p[0], p[0], alpha} : Rgba{p[0], p[1], p[2], alpha};
+}
+
+/// The piece whose top left pixel is (x, y).
+Image8 pieceAt(const Image8& image, int x, int y, int side) {
+  Image8 piece{side, side, 4, {}};
+  piece.pixels.reserve(static_cast<std::size_t>(side) * side * 4);
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      for (const std::uint8_t c : pixelAt(image, x + column, y + row)) piece.pixels.push_back(c);
+    }
+  }
+  return piece;
+}
+
+/// The mean of what is seen of a piece, or its lower left pixel.
+std::array<float, 4> colorOf(const Image8& piece, bool lowerLeft) {
+  std::array<float, 4> color{};
+  double weight = 0, sum[3] = {};
+  for (int y = lowerLeft ? piece.height - 1 : 0; y < piece.height; ++y) {
+    for (int x = 0; x < (lowerLeft ? 1 : piece.width); ++x) {
+      const std::uint8_t* p = piece.at(x, y);
+      weight += p[3];
+      for (int c = 0; c < 3; ++c) sum[c] += double{srgb8ToLinear(p[c])} * p[3];
+    }
+  }
+  const int pixels = lowerLeft ? 1 : piece.width * piece.height;
+  for (int c = 0; c < 3 && weight > 0; ++c) color[c] = static_cast<float>(sum[c] / weight);
+  color[3] = static_cast<float>(weight / (255.0 * pixels));
+  return color;
+}
+
+void requireFlat(const LabelGrid& grid) {
+  if (grid.size().z != 1) {
+    throw InputError("the grid has " + std::to_string(grid.size().z) +
+                     " layers, and a picture has one; write a .txt, .vox or .vdb");
+  }
+}
+
+}  // namespace
+
+ImageLabels labelsFromImage(const Image8& image, const std::string& name,
+                            const ImageLabelsOptions& options) {
+  const int side = options.piece;
+  if (side < 1 || side > 256) throw InputError("a piece should be 1 to 256 pixels a side");
+  if (image.width < side || image.height < side) {
+    throw InputError(name + ": the picture of " + std::to_string(image.width) + " x " +
+                     std::to_string(image.height) + " pixels is smaller than a piece of " +
+                     std::to_string(side) + " x " + std::to_string(side));
+  }
+  const int step = options.overlap ? 1 : side;
+  const Vec3i size{(image.width - side) / step + 1, (image.height - side) / step + 1, 1};
+  requireMemory(static_cast<double>(volume(size)) * (2 + (side > 1 ? 4.0 * side * side : 0)),
+                name + ": its pieces", "use a smaller picture or piece");
+  ImageLabels result;
+  result.options = options;
+  result.grid.cells = Array3D<Label>(size);
+  std::unordered_map<std::string, Label> known;
+  for (int row = 0; row < size.y; ++row) {
+    for (int column = 0; column < size.x; ++column) {
+      // The lowest row of cells is the picture's last; what is left over lies at its top.
+      const int y = size.y - 1 - row;
+      Image8 piece = pieceAt(image, column * step, image.height - side - y * step, side);
+      auto [found, isNew] =
+          known.try_emplace(std::string(piece.pixels.begin(), piece.pixels.end()), Label{});
+      if (isNew) {
+        if (result.pieces.size() == static_cast<std::size_t>(kMostLabels)) {
+          throw InputError(name + ": the picture has more than " + std::to_string(kMostLabels) +
+                           " different pieces; use fewer colours");
+        }
+        found->second = static_cast<Label>(result.pieces.size());
+        LabelLook& look = result.grid.labels.emplace_back();
+        look.color = colorOf(piece, options.overlap);
+        result.pieces.push_back(std::move(piece));
+      }
+      result.grid.cells(column, y, 0) = found->second;
+    }
+  }
+  return result;
+}
+
+Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels) {
+  requireFlat(grid);
+  const Vec3i size = grid.size();
+  const int side = labels.options.piece, step = labels.options.overlap ? 1 : side;
+  const double width = (size.x - 1.0) * step + side, height = (size.y - 1.0) * step + side;
+  requireMemory(4 * width * height, "the picture", "make a smaller one");
+  Image8 image{static_cast<int>(width), static_cast<int>(height), 4, {}};
+  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height * 4);
+  // Pieces that overlap cover what earlier ones laid, all but their lower left pixels.
+  for (int y = 0; y < size.y; ++y) {
+    for (int x = 0; x < size.x; ++x) {
+      const Label label = grid.cells(x, y, 0);
+      if (label >= labels.pieces.size()) {
+        throw InputError("label " + std::to_string(label) + " has no piece of the picture");
+      }
+      const Image8& piece = labels.pieces[label];
+      for (int row = 0; row < side; ++row) {
+        std::copy_n(piece.at(0, row), 4 * side,
+                    image.at(x * step, image.height - side - y * step + row));
+      }
+    }
+  }
+  return image;
+}
+
+Image8 imageFromLabels(const LabelGrid& grid) {
+  requireFlat(grid);
+  Image8 image{grid.size().x, grid.size().y, 4, {}};
+  image.pixels.reserve(static_cast<std::size_t>(image.width) * image.height * 4);
+  for (int y = image.height - 1; y >= 0; --y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto& color = grid.labels[grid.cells(x, y, 0)].color;
+      for (int c = 0; c < 3; ++c) image.pixels.push_back(linearToSrgb8(color[c]));
+      image.pixels.push_back(static_cast<std::uint8_t>(color[3] * 255 + 0.5f));
+    }
+  }
+  return image;
+}
+
+}  // namespace exemplar

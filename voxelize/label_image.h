@@ -1,0 +1,46 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/image.h"
+#include "voxelize/label_grid.h"
+
+namespace exemplar {
+
+/// How a picture becomes a flat grid of labels.
+struct ImageLabelsOptions {
+  int piece = 1;  ///< pixels a side of what is one label, 1..256
+  /// Whether pieces begin at every pixel rather than at every `piece`th: each label is then a pixel
+  /// with what is right of it and above it, so that adjacency reaches that far.
+  bool overlap = false;
+};
+
+/// A picture as labels, and what each label looks like.
+struct ImageLabels {
+  /// One layer; x runs to the right, y up. Labels are numbered in the order in which pieces come,
+  /// row by row from the picture's top. Their colours are those of the piece's lower left pixel
+  /// where pieces overlap, else its average; a piece that is transparent throughout is empty.
+  LabelGrid grid;
+  ImageLabelsOptions options;
+  std::vector<Image8> pieces;  ///< RGBA, one for each label
+};
+
+/// Cuts a picture into labels: equal pieces (all transparent pixels are equal) are one label. What
+/// is left at the right and top, less than a piece, is not taken. Throws `InputError` ("NAME: ...")
+/// where the picture is smaller than a piece or has more than 65,536 different ones.
+ImageLabels labelsFromImage(const Image8& image, const std::string& name,
+                            const ImageLabelsOptions& options = {});
+
+/// The picture of a flat grid: a piece for each label; where pieces overlap, their lower left
+/// pixels, and all of the pieces in the last column and the top row. Throws `InputError` for a grid
+/// of more than one layer or with labels that have no piece.
+Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels);
+
+/// The picture of a flat grid, a pixel for each cell in the label's own colour.
+Image8 imageFromLabels(const LabelGrid& grid);
+
+}  // namespace exemplar
