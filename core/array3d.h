@@ -6,8 +6,8 @@
 #include <cassert>
 #include <cstddef>
 #include <span>
-#include <vector>
 
+#include "core/huge_pages.h"
 #include "core/vec.h"
 
 namespace exemplar {
@@ -57,7 +57,7 @@ class Array3D {
 
  private:
   Vec3i size_{};
-  std::vector<T> data_;
+  HugeVector<T> data_;
 };
 
 }  // namespace exemplar

@@ -91,8 +91,8 @@ int shiftFor(int range) {
   return shift;
 }
 
-std::vector<FeatureTree::Node> nodesOver(const std::vector<Box>& boxes) {
-  std::vector<FeatureTree::Node> nodes((boxes.size() + kWide - 1) / kWide);
+HugeVector<FeatureTree::Node> nodesOver(const std::vector<Box>& boxes) {
+  HugeVector<FeatureTree::Node> nodes((boxes.size() + kWide - 1) / kWide);
   parallelFor(0, nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       FeatureTree::Node& node = nodes[n];

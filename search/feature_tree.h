@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/huge_pages.h"
 #include "search/kernels.h"
 
 namespace exemplar {
@@ -65,9 +66,9 @@ class FeatureTree {
   }
 
   std::size_t entryCount_ = 0;
-  std::vector<Leaf> leaves_;
-  std::vector<kernels::DetailPoints> details_;
-  std::vector<std::vector<Node>> levels_;
+  HugeVector<Leaf> leaves_;
+  HugeVector<kernels::DetailPoints> details_;
+  std::vector<HugeVector<Node>> levels_;
 };
 
 /// Asks for the memory of `what`, all of it.
