@@ -54,6 +54,9 @@ Frame frameFor(const TriangleMesh& mesh, const MeshToSdfOptions& options) {
     throw InputError("padding is " + std::to_string(options.padding) + "; it must be >= 0 voxels");
   if (!(options.halfWidth > 0))
     throw InputError("halfWidth is " + text(options.halfWidth) + "; it must be > 0 voxels");
+  if (options.cutByBox && options.padding > 0)
+    throw InputError("cutByBox is on and padding is " + std::to_string(options.padding) +
+                     "; what lies beyond a cut is unknown: padding must be 0");
   const Box3d box = options.box ? *options.box : boundingBox(mesh);
   if (box.empty() || !isFinite(box.min) || !isFinite(box.max))
     throw InputError(options.box ? "the box to sample is empty or not finite"
@@ -81,6 +84,21 @@ Frame frameFor(const TriangleMesh& mesh, const MeshToSdfOptions& options) {
 void measure(const TriangleTree& surface, double limit, Array3D<float>& distances) {
   if (surface.count() == 0) limit = std::min(limit, length(cast<double>(distances.size())));
   sampleDistances(surface, limit, {}, distances);
+}
+
+// What is left of triangles (in voxels, samples at whole numbers) without those in the box's faces.
+std::vector<Corners> withoutCuts(std::vector<Corners> triangles, const Vec3i& size) {
+  constexpr double kInFace = 1e-3;  // voxels: files round positions
+  const auto isCut = [&](const Corners& t) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double face : {-0.5, size[axis] - 0.5})
+        if (std::all_of(t.begin(), t.end(),
+                        [&](const Vec3d& p) { return std::abs(p[axis] - face) < kInFace; }))
+          return true;
+    return false;
+  };
+  std::erase_if(triangles, isCut);
+  return triangles;
 }
 
 // Sets `inside` for a block of samples, at most 4 a side, that stand at low + ijk.
@@ -163,6 +181,7 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
   if (source == SignSource::WindingNumber) {
     const SolidTest solid(soup, tree);
     std::vector<Corners> bounding = boundingTriangles(soup, *tree, solid, frame.size, limit + 4);
+    if (options.cutByBox) bounding = withoutCuts(std::move(bounding), frame.size);
     if (progress.cancelled()) return {};
     progress.report("measuring distances", 0.4);
     if (!soup.closed) {
@@ -178,7 +197,11 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
   } else {
     progress.report("measuring distances", 0.4);
     if (source == SignSource::Flood) inside = floodedInside(tree->triangles(), frame.size);
-    measure(*tree, limit, distances);
+    if (options.cutByBox) {
+      measure(TriangleTree(withoutCuts(tree->triangles(), frame.size)), limit, distances);
+    } else {
+      measure(*tree, limit, distances);
+    }
     if (source == SignSource::RayParity) spreadSigns(ParityTest(soup), distances, inside);
   }
 

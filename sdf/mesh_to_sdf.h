@@ -30,6 +30,10 @@ struct MeshToSdfOptions {
   double halfWidth = 3;      ///< the distance is exact up to this many voxels, then clamped; > 0;
                              ///< infinite: exact everywhere
   SignSource sign = SignSource::Automatic;
+  /// The box is a window into something larger, and triangles that lie in its faces are where the
+  /// window cut it: they bound the solid, but no distance is measured from them. `fieldToMesh`
+  /// closes surfaces so. Only with `padding` 0.
+  bool cutByBox = false;
 };
 
 /// The signed distance of a mesh's solid.

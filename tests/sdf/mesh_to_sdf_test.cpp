@@ -307,6 +307,32 @@ TEST(MeshToSdf, FollowsARotationOfTheMesh) {
   }
 }
 
+TEST(MeshToSdf, MeasuresNoDistanceFromWhereTheBoxCutIt) {
+  // Ground that fills the box's floor, its sides and bottom closed by the cut; one wall of it is
+  // inside the box, and a surface.
+  const TriangleMesh ground = makeBox({{0, 0.3, 0}, {1, 1, 0.45}});
+  const Shape corner = [](const Vec3d& p) {
+    const double up = p.z - 0.45, out = 0.3 - p.y;
+    return up > 0 && out > 0 ? std::hypot(up, out) : std::max(up, out);
+  };
+  for (const SignSource sign : {SignSource::Automatic, SignSource::Flood, SignSource::RayParity}) {
+    MeshToSdfOptions options{
+        .resolution = 20, .box = Box3d{{0, 0, 0}, {1, 1, 1}}, .halfWidth = 30, .sign = sign};
+    options.cutByBox = true;
+    const DistanceField window = meshToSdf(ground, options);
+    options.cutByBox = false;
+    const DistanceField object = meshToSdf(ground, options);
+    double different = 0;
+    for (std::size_t s = 0; s < window.values.count(); ++s) {
+      const Vec3d p = window.position(cast<double>(window.values.ijk(s)));
+      ASSERT_NEAR(window.values.values()[s], corner(p), 1e-6);
+      different = std::max(different, std::abs(object.values.values()[s] - corner(p)));
+    }
+    EXPECT_GT(different, 0.3);  // deep in the ground, the cut is near
+  }
+  EXPECT_THROW(meshToSdf(ground, {.padding = 1, .cutByBox = true}), InputError);
+}
+
 // Distance of the union of two spheres, also inside it.
 Shape twoSpheres(const Vec3d& a, double ra, const Vec3d& b, double rb) {
   return [=](const Vec3d& p) {
