@@ -4,29 +4,58 @@
 // exemplar measure: how alike, how new and how seamless a result is.
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/command.h"
 #include "apps/terminal.h"
+#include "core/error.h"
 #include "core/file.h"
 #include "measure/figures.h"
-#include "sdf/mesh_to_sdf.h"
+#include "measure/mesh_result.h"
 #include "sdf/vdb_file.h"
 
 namespace exemplar {
 namespace {
 
 struct Options {
-  std::string example, result, origins, json;
+  std::string example, result, origins, scale, json;
   ExampleOptions reading;
   CommonOptions common;
 };
 
+/// How many samples a result given as a mesh has, where the command line tells.
+std::optional<Vec3i> resultSize(const Options& options, const Example& example,
+                                const Origins& origins) {
+  if (origins.count() > 0) {
+    if (!options.scale.empty())
+      throw InputError("--scale: the origins tell the size already; give one of the two");
+    return origins.size();
+  }
+  if (options.scale.empty()) return std::nullopt;
+  const Vec3d scale = parseTriple(options.scale, "--scale");
+  Vec3i size;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double n = std::round(example.field.size()[axis] * scale[axis]);
+    if (!(n >= 1 && n <= 32767)) {
+      throw InputError("--scale: the result would be " + std::to_string(n) +
+                       " samples long; expected 1 to 32767");
+    }
+    size[axis] = static_cast<int>(n);
+  }
+  return size;
+}
+
 /// The result at the example's voxel size, and its triangles where it has any.
-Example loadResult(const Options& options, const Example& example, const Progress& progress) {
+Example loadResult(const Options& options, const Example& example, const Origins& origins,
+                   const Progress& progress) {
   if (!isMeshFile(options.result)) {
+    if (!options.scale.empty())
+      throw InputError("--scale: " + options.result +
+                       " has a size of its own; only a mesh has not");
     ExampleOptions reading = options.reading;
     reading.padding = 0;
     return loadExample(options.result, reading, progress);
@@ -34,9 +63,12 @@ Example loadResult(const Options& options, const Example& example, const Progres
   Example result;
   result.path = options.result;
   result.mesh = readMesh(options.result, options.reading.mesh);
-  result.field =
-      meshToSdf(*result.mesh,
-                {.voxelSize = example.field.voxelSize, .halfWidth = kExampleHalfWidth}, progress);
+  const std::optional<Vec3i> size = resultSize(options, example, origins);
+  try {
+    result.field = sampleMeshResult(*result.mesh, example.field, {.size = size}, progress);
+  } catch (const InputError& error) {
+    throw InputError(options.result + ": " + error.what());
+  }
   return result;
 }
 
@@ -58,16 +90,17 @@ void measureFiles(const Options& options) {
   Terminal terminal(options.common.quiet);
   if (!options.json.empty() && options.json != "-") requireOutput(options.json, ".json");
   const Example example = loadExample(options.example, options.reading, terminal.progress());
-  const Example result = loadResult(options, example, terminal.progress());
   Origins origins;
+  if (!options.origins.empty()) origins = readOriginsVdb(options.origins);
+  const Example result = loadResult(options, example, origins, terminal.progress());
+  terminal.stopIfInterrupted();
   MeasureInput input;
-  if (!options.origins.empty()) {
-    origins = readOriginsVdb(options.origins);
-    input.origins = &origins;
-  }
+  if (!options.origins.empty()) input.origins = &origins;
   if (result.mesh) input.mesh = &*result.mesh;
   terminal.step("measuring");
-  const Measures measures = measure(example.field, result.field, input, {}, terminal.progress());
+  const Measures measures =
+      measure(example.field, result.field, input,
+              {.likeness = {.contoured = result.mesh.has_value()}}, terminal.progress());
   terminal.stopIfInterrupted();
   const std::vector<Figure> all = figures(measures);
   terminal.wipe();
@@ -88,10 +121,13 @@ CommandRun addMeasureCommand(CLI::App& app) {
   command->add_option("EXAMPLE", options->example, "what the result was made from")->required();
   command
       ->add_option("RESULT", options->result,
-                   "a .vdb (its own samples), or a mesh (sampled again, as finely as EXAMPLE)")
+                   "a .vdb (its own samples), or a mesh (sampled where synth's samples stood)")
       ->required();
   command->add_option("--origins", options->origins,
                       "the result's origins (.vdb, by synth --origins): more figures");
+  command->add_option("--scale", options->scale,
+                      "the size that a mesh was made with, as synth was told (guessed; origins "
+                      "tell it too)");
   command->add_option("--json", options->json, "write the figures to this .json; - prints them");
   addExampleOptions(*command, options->reading);
   addCommonOptions(*command, options->common);

@@ -51,11 +51,15 @@ void addLikeness(List& list, const Likeness& l) {
            "of the example against itself");
   list.add("occupancy_ratio", l.occupancyRatio, "solid share over the example's; 1 is best");
   list.add("surface_ratio", l.surfaceRatio, "surface density over the example's; 1 is best");
-  list.add("pieces_per_million_cells", l.pieces.resultPerMillion, "whole pieces in the result");
-  list.add("pieces_per_million_cells_example", l.pieces.examplePerMillion,
+  const auto pieces = [&](double Pieces::*figure) {
+    return l.pieces ? std::optional((*l.pieces).*figure) : std::nullopt;
+  };
+  list.add("pieces_per_million_cells", pieces(&Pieces::resultPerMillion),
+           "whole pieces in the result");
+  list.add("pieces_per_million_cells_example", pieces(&Pieces::examplePerMillion),
            "whole pieces in the example");
-  list.add("pieces_depth", l.pieces.depth, "voxels below the surface where pieces begin");
-  list.add("broken_share", l.pieces.brokenShare,
+  list.add("pieces_depth", pieces(&Pieces::depth), "voxels below the surface where pieces begin");
+  list.add("broken_share", pieces(&Pieces::brokenShare),
            "solid in pieces under half of the example's smallest; 0 is best");
   list.add("windows", l.dense.windows, "windows drawn for lp_dense");
 }

@@ -44,7 +44,8 @@ Likeness measureLikeness(const DistanceField& example, const DistanceField& resu
     likeness.occupancyRatio = likeness.resultOccupancy / likeness.exampleOccupancy;
   if (likeness.exampleSurface > 0)
     likeness.surfaceRatio = likeness.resultSurface / likeness.exampleSurface;
-  likeness.pieces = comparePieces(example, result);
+  const Pieces pieces = comparePieces(example, result);
+  if (pieces.depth == 0 || !options.contoured) likeness.pieces = pieces;
   return likeness;
 }
 

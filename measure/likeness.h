@@ -17,6 +17,9 @@ struct LikenessOptions {
   double threshold = 0.95;  ///< the IoU from which windows count as alike; 0..1
   int windows = 1000;       ///< windows drawn for each figure; >= 1
   std::uint64_t seed = 0;
+  /// The result's field was measured from a contoured surface (`sampleMeshResult`), where bodies
+  /// that rest on each other have become one.
+  bool contoured = false;
 };
 
 /// How much a result is like its example. A figure that has no meaning (a ratio to an example
@@ -31,7 +34,8 @@ struct Likeness {
   double exampleOccupancy = 0, resultOccupancy = 0;    ///< solid shares, 0..1
   double exampleSurface = 0, resultSurface = 0;        ///< area densities, 1 / voxels
   std::optional<double> occupancyRatio, surfaceRatio;  ///< the result's over the example's
-  Pieces pieces;
+  /// Nothing where the example's pieces rest on each other and the result was contoured.
+  std::optional<Pieces> pieces;
 };
 
 /// All figures of likeness, from the fields alone. At 128³ about a second on two cores; the same

@@ -61,9 +61,9 @@ TEST_F(Soundness, TheExampleAgainstItselfScoresOne) {
     EXPECT_EQ(l.patches->distance, l.patches->floor);
     EXPECT_EQ(l.occupancyRatio, 1);
     EXPECT_EQ(l.surfaceRatio, 1);
-    EXPECT_EQ(l.pieces.brokenShare, 0);
-    EXPECT_GT(l.pieces.example, 10);
-    EXPECT_EQ(l.pieces.result, l.pieces.example);
+    EXPECT_EQ(l.pieces->brokenShare, 0);
+    EXPECT_GT(l.pieces->example, 10);
+    EXPECT_EQ(l.pieces->result, l.pieces->example);
   }
 }
 
@@ -78,7 +78,7 @@ TEST_F(Soundness, AShiftedCopyScoresOne) {
     EXPECT_GT(l.patches->distance, 0.5 * l.patches->floor);
     EXPECT_EQ(l.occupancyRatio, 1);
     EXPECT_NEAR(*l.surfaceRatio, 1, 1e-9);
-    EXPECT_EQ(l.pieces.brokenShare, 0);
+    EXPECT_EQ(l.pieces->brokenShare, 0);
   }
 }
 
@@ -135,7 +135,7 @@ TEST_F(Soundness, WhiteNoiseFailsBoth) {
     EXPECT_LT(l.dense.meanIou, 0.4);
     EXPECT_GT(*l.surfaceRatio, 3);
     EXPECT_GT(l.patches->distance, 100 * l.patches->floor);
-    EXPECT_GT(l.pieces.brokenShare, 0.1);
+    EXPECT_GT(l.pieces->brokenShare, 0.1);
   }
 }
 
@@ -147,7 +147,7 @@ TEST_F(Soundness, AFreshSampleScoresBetweenACopyAndNoise) {
   const Likeness rough = measureLikeness(example, noise(n, occupancy(example), 3));
   for (const Likeness* l : {&fresh, &larger}) {
     expectRatiosNearOne(*l, 0.1);
-    EXPECT_EQ(l->pieces.brokenShare, 0);
+    EXPECT_EQ(l->pieces->brokenShare, 0);
     // The floor knows the drawing of patches, not the drawing of the hundred balls of either box.
     EXPECT_LT(l->patches->distance, 6 * l->patches->floor);
     EXPECT_LT(l->patches->distance, 0.05 * rough.patches->distance);
@@ -170,7 +170,7 @@ TEST_F(Soundness, BrokenBallsShow) {
     return (c.x / 3 + c.y / 3 + c.z / 3) % 2 ? 1.0f : whole.values[c];
   });
   const Likeness l = measureLikeness(whole, shattered);
-  EXPECT_GT(l.pieces.brokenShare, 0.3);
+  EXPECT_GT(l.pieces->brokenShare, 0.3);
   EXPECT_LT(l.dense.share, 0.05);
 }
 

@@ -71,9 +71,9 @@ void printRow(const std::string& name) {
       mean([](const Measures& m) { return m.likeness.patches ? m.likeness.patches->floor : NAN; }),
       mean([](const Measures& m) { return m.likeness.occupancyRatio.value_or(NAN); }),
       mean([](const Measures& m) { return m.likeness.surfaceRatio.value_or(NAN); }),
-      mean([](const Measures& m) { return m.likeness.pieces.examplePerMillion; }),
-      mean([](const Measures& m) { return m.likeness.pieces.resultPerMillion; }),
-      mean([](const Measures& m) { return m.likeness.pieces.brokenShare; }), diversity(results));
+      mean([](const Measures& m) { return m.likeness.pieces->examplePerMillion; }),
+      mean([](const Measures& m) { return m.likeness.pieces->resultPerMillion; }),
+      mean([](const Measures& m) { return m.likeness.pieces->brokenShare; }), diversity(results));
   std::fflush(stdout);
 }
 

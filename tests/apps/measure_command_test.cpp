@@ -1,0 +1,74 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/file.h"
+#include "tests/apps/run_command.h"
+
+namespace exemplar {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kScene = std::string(EXEMPLAR_SOURCE_DIR) + "/scenes/chainmail.toml";
+const std::string kMeasure = "measure e.vdb ";
+
+/// Samples the scene once, so that each command reads it fast.
+void makeExample(const TestFolder& folder) {
+  ASSERT_EQ(runExemplar("sdf " + kScene + " --resolution 32 -o e.vdb", folder.path()).status, 0);
+}
+
+nlohmann::json figures(const TestFolder& folder, const std::string& arguments) {
+  const auto run = runExemplar(kMeasure + arguments + " --json -", folder.path());
+  EXPECT_EQ(run.status, 0) << run.err;
+  return nlohmann::json::parse(run.out, nullptr, false);
+}
+
+TEST(MeasureCommand, ScoresAMeshAsTheFieldItWasContouredFrom) {
+  const TestFolder folder;
+  makeExample(folder);
+  const auto made =
+      runExemplar("synth e.vdb --scale 1.5,1.5,1 -o o.vdb --origins origins.vdb", folder.path());
+  ASSERT_EQ(made.status, 0) << made.err;
+  ASSERT_EQ(runExemplar("mesh o.vdb -o o.obj", folder.path()).status, 0);
+  ASSERT_EQ(runExemplar("mesh o.vdb -o o.glb", folder.path()).status, 0);
+  const auto field = figures(folder, "o.vdb")["likeness"];
+  EXPECT_GT(field["lp_dense"].get<double>(), 0.1);
+  for (const std::string result :
+       {"o.obj", "o.glb", "o.obj --scale 1.5,1.5,1", "o.glb --origins origins.vdb"}) {
+    const auto mesh = figures(folder, result)["likeness"];
+    // Samples beside the surface may change sides, and windows come and go with them.
+    for (const char* key : {"lp_dense", "coverage", "lp_dense_mean_iou", "coverage_mean_iou",
+                            "occupancy_ratio", "surface_ratio"}) {
+      EXPECT_NEAR(mesh[key].get<double>(), field[key].get<double>(), 0.05) << result << " " << key;
+    }
+    // Rings that rest on each other are one body in the mesh: no figure rather than a wrong one.
+    EXPECT_TRUE(mesh["broken_share"].is_null());
+    EXPECT_FALSE(field["broken_share"].is_null());
+  }
+}
+
+TEST(MeasureCommand, RefusesASizeThatCannotBe) {
+  const TestFolder folder;
+  makeExample(folder);
+  ASSERT_EQ(runExemplar("mesh e.vdb -o o.obj", folder.path()).status, 0);
+  for (const auto& [arguments, error] : std::vector<std::pair<std::string, std::string>>{
+           {"o.obj --scale 0.5", "o.obj: the mesh lies at"},
+           {"o.obj --scale 0", "--scale"},
+           {"e.vdb --scale 1.5,1.5,1", "e.vdb has a size of its own"},
+           {"nothing.obj", "nothing.obj"}}) {
+    const auto run = runExemplar(kMeasure + arguments, folder.path());
+    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_THAT(run.err, HasSubstr(error));
+  }
+}
+
+}  // namespace
+}  // namespace exemplar
