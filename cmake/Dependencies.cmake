@@ -24,3 +24,12 @@ find_package(JPEG REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
+
+# CaDiCaL comes without a package file of its own.
+find_path(CADICAL_INCLUDE_DIR cadical.hpp REQUIRED)
+find_library(CADICAL_LIBRARY cadical REQUIRED)
+if(NOT TARGET exemplar::cadical)
+  add_library(exemplar::cadical UNKNOWN IMPORTED)
+  set_target_properties(exemplar::cadical PROPERTIES
+    IMPORTED_LOCATION ${CADICAL_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${CADICAL_INCLUDE_DIR})
+endif()

@@ -26,4 +26,35 @@ struct ModelSymmetry {
   bool any() const { return mirrorX || mirrorY || turns > 1 || copies != Vec3i{1, 1, 1}; }
 };
 
+/// The symmetries of a grid as maps of cells, with what they make of labels; element 0 is the
+/// identity. Copies are translations: they come on top of the elements and leave labels alone.
+class SymmetryGroup {
+ public:
+  static constexpr Label kNoImage = 0xFFFF;
+
+  SymmetryGroup() = default;
+  /// Throws `InputError` where the size or the label tables do not suit the symmetry.
+  SymmetryGroup(const ModelSymmetry& symmetry, const Vec3i& size, int labels);
+
+  int elements() const { return static_cast<int>(elements_.size()); }
+  /// Where element `e` takes a cell, and an offset between cells.
+  Vec3i moved(int e, const Vec3i& cell) const;
+  Vec3i turned(int e, const Vec3i& offset) const;
+  /// What element `e` makes of a label, or `kNoImage`.
+  Label image(int e, Label label) const { return e == 0 ? label : elements_[e].labels[label]; }
+
+ private:
+  /// x' = xx x + xy y, y' = yx x + yy y about the middle.
+  struct Element {
+    int xx = 1, xy = 0, yx = 0, yy = 1;
+    std::vector<Label> labels;  // empty for the identity
+    bool sameMap(const Element& o) const {
+      return xx == o.xx && xy == o.xy && yx == o.yx && yy == o.yy;
+    }
+  };
+
+  Vec3i size_{1, 1, 1};
+  std::vector<Element> elements_{Element{}};
+};
+
 }  // namespace exemplar

@@ -1,0 +1,59 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/progress.h"
+#include "synth/model/network.h"
+
+namespace exemplar {
+
+/// Labels a network exactly, by a SAT solver (Biere, Fazekas, Fleury, Heisinger: "CaDiCaL,
+/// Kissat, Paracooba, Plingeling and Treengeling entering the SAT competition 2020").
+///
+/// A cell with several labels has a variable for each and exactly one of them true; a label implies
+/// one of those that support it at each neighbor (the support encoding of Gent, "Arc consistency in
+/// SAT", ECAI 2002), so that the solver's unit propagation is at least as strong as arc
+/// consistency. Labels that allow the same at a neighbor share the clause. Deterministic.
+class ExactSolver {
+ public:
+  enum class Outcome { Solved, Impossible, GaveUp };
+
+  /// `domains` holds the labels possible at each cell, none of them empty.
+  ExactSolver(const LabelNetwork& network, const LabelSets& domains);
+  ~ExactSolver();
+  ExactSolver(const ExactSolver&) = delete;
+  ExactSolver& operator=(const ExactSolver&) = delete;
+
+  /// Has the solver try `label` first at `cell`.
+  void prefer(int cell, int label);
+
+  /// A demand that can be switched on: while it is, `cell` takes one of `labels`. Returns its
+  /// number; several restrictions may belong to one demand (give it again).
+  int newDemand();
+  void addToDemand(int demand, int cell, std::span<const LabelWord> labels);
+
+  /// Demands that one of the (cell, label) of `some` holds, or that one of `orNot` does not.
+  void demandOne(std::span<const std::pair<int, int>> some,
+                 std::span<const std::pair<int, int>> orNot);
+
+  /// Solves with the demands switched on, meeting at most `conflicts` conflicts.
+  Outcome solve(std::span<const int> demands, std::int64_t conflicts,
+                const Progress& progress = {});
+  /// After Solved: the label of a cell.
+  int label(int cell) const;
+  /// After Impossible: whether the proof made use of a demand.
+  bool used(int demand) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace exemplar

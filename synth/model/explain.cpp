@@ -1,0 +1,186 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/model/explain.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "synth/model/catalog.h"
+#include "synth/model/exact.h"
+
+namespace exemplar {
+namespace {
+
+/// The demands of a request as numbers: the pins, then the six sides.
+class DemandSet {
+ public:
+  DemandSet(const ModelProblem& problem, const Progress& progress)
+      : problem_(problem), progress_(progress), catalog_(problem.network()) {
+    pins_ = static_cast<int>(problem.options().pins.size());
+    for (int d = 0; d < pins_ + 6; ++d) {
+      const bool rule =
+          d < pins_ || problem.options().sides[d - pins_].kind != SideRule::Kind::Free;
+      if (rule) all_.push_back(d);
+    }
+  }
+
+  const std::vector<int>& all() const { return all_; }
+  bool isPin(int demand) const { return demand < pins_; }
+  Side side(int demand) const { return static_cast<Side>(demand - pins_); }
+
+  ModelDemands only(std::span<const int> demands) const {
+    ModelDemands d;
+    d.pins.assign(pins_, false);
+    d.sides.fill(false);
+    for (const int i : demands) {
+      if (i < pins_) {
+        d.pins[i] = true;
+      } else {
+        d.sides[i - pins_] = true;
+      }
+    }
+    return d;
+  }
+  /// Whether propagation alone shows that the demands cannot be met.
+  bool contradictory(std::span<const int> demands) {
+    const LabelSets start = problem_.domains(only(demands));
+    for (int c = 0; c < problem_.network().cells; ++c) catalog_.setDomain(c, start[c]);
+    return !catalog_.propagateAll();
+  }
+  const ModelProblem& problem() const { return problem_; }
+  const Progress& progress() const { return progress_; }
+  const Catalog& catalog() const { return catalog_; }
+
+ private:
+  const ModelProblem& problem_;
+  const Progress& progress_;
+  Catalog catalog_;
+  int pins_;
+  std::vector<int> all_;
+};
+
+/// Leaves out of `demands`, in ever smaller pieces, what the test does not need.
+template <class Impossible>
+std::vector<int> smallest(std::vector<int> demands, const Progress& progress,
+                          const Impossible& impossible) {
+  for (std::size_t piece = std::max<std::size_t>(1, demands.size() / 2);;
+       piece = std::max<std::size_t>(1, piece / 2)) {
+    for (std::size_t at = 0; at < demands.size() && !progress.cancelled();) {
+      std::vector<int> fewer(demands);
+      const std::size_t end = std::min(demands.size(), at + piece);
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(at),
+                  fewer.begin() + static_cast<std::ptrdiff_t>(end));
+      if (impossible(fewer)) {
+        demands = std::move(fewer);
+      } else {
+        at = end;
+      }
+    }
+    if (piece == 1) return demands;
+  }
+}
+
+/// The same by the exact solver: each demand is an assumption, and a proof names those it used.
+std::vector<int> smallestExactly(DemandSet& set) {
+  const ModelProblem& problem = set.problem();
+  const LabelNetwork& network = problem.network();
+  if (set.contradictory({})) return {};
+  LabelSets free(network.labels, network.cells);
+  for (int c = 0; c < network.cells; ++c) {
+    std::copy(set.catalog().domain(c).begin(), set.catalog().domain(c).end(), free[c].begin());
+  }
+  ExactSolver exact(network, free);
+  std::vector<int> number(set.all().size());
+  for (std::size_t i = 0; i < set.all().size(); ++i) {
+    number[i] = exact.newDemand();
+    const LabelSets allowed = problem.domains(set.only(std::span(&set.all()[i], 1)));
+    for (int c = 0; c < network.cells; ++c) exact.addToDemand(number[i], c, allowed[c]);
+  }
+  std::vector<int> needed = set.all();
+  const auto impossible = [&](const std::vector<int>& demands) {
+    std::vector<int> on;
+    for (const int d : demands) {
+      const auto at = std::lower_bound(set.all().begin(), set.all().end(), d) - set.all().begin();
+      on.push_back(number[at]);
+    }
+    return exact.solve(on, problem.options().budget, set.progress()) ==
+           ExactSolver::Outcome::Impossible;
+  };
+  if (!impossible(needed)) return needed;
+  std::vector<int> used;
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    if (exact.used(number[i])) used.push_back(needed[i]);
+  }
+  return smallest(std::move(used), set.progress(), impossible);
+}
+
+std::string labelNames(std::span<const Label> labels, std::span<const LabelLook> looks) {
+  std::string text;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (i == 4 && labels.size() > 5) {
+      return text + " or one of " + std::to_string(labels.size() - 4) + " others";
+    }
+    if (i > 0) text += i + 1 == labels.size() ? " or " : ", ";
+    const bool named = labels[i] < looks.size() && !looks[labels[i]].name.empty();
+    text += named ? "'" + looks[labels[i]].name + "'" : "label " + std::to_string(labels[i]);
+  }
+  return text;
+}
+
+std::string pinText(const PinnedCell& pin, std::span<const LabelLook> looks) {
+  std::string text = "cell (" + std::to_string(pin.cell.x) + ", " + std::to_string(pin.cell.y) +
+                     ", " + std::to_string(pin.cell.z) + ")";
+  if (pin.frame > 0) text += " of frame " + std::to_string(pin.frame);
+  return text + " must be " + labelNames(pin.labels, looks);
+}
+
+std::string sideText(Side side, const SideRule& rule, std::span<const LabelLook> looks) {
+  static constexpr std::array<const char*, 6> kNames{"lowest x",  "highest x", "lowest y",
+                                                     "highest y", "bottom",    "top"};
+  const std::string name = kNames[static_cast<int>(side)];
+  const std::string layer = "the " + name + (side < Side::MinZ ? " layer" : "");
+  if (rule.kind == SideRule::Kind::Example) return layer + " must show what the example's shows";
+  return layer + " must be " + labelNames(rule.labels, looks);
+}
+
+}  // namespace
+
+ModelConflict explainConflict(const ModelProblem& problem, std::span<const LabelLook> looks,
+                              const Progress& progress) {
+  DemandSet set(problem, progress);
+  std::vector<int> needed;
+  if (set.contradictory(set.all())) {
+    needed = smallest(set.all(), progress,
+                      [&](const std::vector<int>& fewer) { return set.contradictory(fewer); });
+  } else {
+    needed = smallestExactly(set);
+  }
+
+  ModelConflict conflict;
+  std::string list;
+  for (const int d : needed) {
+    if (!list.empty()) list += "; ";
+    if (set.isPin(d)) {
+      conflict.pins.push_back(d);
+      list += pinText(problem.options().pins[d], looks);
+    } else {
+      conflict.sides.push_back(set.side(d));
+      list += sideText(set.side(d), problem.options().sides[static_cast<int>(set.side(d))], looks);
+    }
+  }
+  const Vec3i& n = problem.options().size;
+  const std::string size =
+      std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " cells";
+  if (needed.empty()) {
+    conflict.text = "no grid of " + size + " can be made of the pairs of labels in the example";
+  } else if (needed.size() == 1) {
+    conflict.text = "in a grid of " + size + " this cannot be met: " + list;
+  } else {
+    conflict.text = "in a grid of " + size + " these exclude each other: " + list;
+  }
+  return conflict;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,110 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/model/origins.h"
+
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+#include "core/error.h"
+
+namespace exemplar {
+namespace {
+
+/// A cell's label, then its neighbors' at -x, +x, -y, +y, -z, +z; `kOutside` beyond the grid.
+using Surroundings = std::array<std::uint32_t, 7>;
+constexpr std::uint32_t kOutside = 0x10000;
+
+struct SurroundingsHash {
+  std::size_t operator()(const Surroundings& s) const {
+    std::uint64_t h = 0x9E3779B97F4A7C15u;
+    for (const std::uint32_t v : s) h = (h ^ v) * 0xD6E8FEB86659FD93u, h ^= h >> 32;
+    return h;
+  }
+};
+
+Vec3i step(int side) {
+  Vec3i d;
+  d[side / 2] = side % 2 ? 1 : -1;
+  return d;
+}
+
+Surroundings surroundings(const LabelGrid& grid, const Vec3i& p) {
+  Surroundings s;
+  s[0] = grid.cells[p];
+  for (int side = 0; side < 6; ++side) {
+    const Vec3i q = p + step(side);
+    s[side + 1] = grid.cells.contains(q) ? grid.cells[q] : kOutside;
+  }
+  return s;
+}
+
+int agreement(const Surroundings& a, const Surroundings& b) {
+  int count = 0;
+  for (int i = 1; i < 7; ++i) count += a[i] == b[i];
+  return count;
+}
+
+}  // namespace
+
+Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples) {
+  if (examples.size() > 255) throw InputError("origins hold 255 examples at most");
+  struct Place {
+    Surroundings around;
+    Origin first;
+  };
+  std::unordered_map<Surroundings, Origin, SurroundingsHash> known;
+  std::vector<std::vector<Place>> places;  // of a label: each surroundings that it has
+  std::vector<Array3D<std::uint8_t>> none;
+  for (std::size_t e = 0; e < examples.size(); ++e) {
+    const Vec3i n = examples[e].size();
+    if (std::max({n.x, n.y, n.z}) > 32767) {
+      throw InputError("an example is longer than 32767 cells");
+    }
+    places.resize(std::max<std::size_t>(places.size(), examples[e].labels.size()));
+    for (std::size_t i = 0; i < examples[e].cells.count(); ++i) {
+      const Vec3i p = examples[e].cells.ijk(i);
+      const Surroundings s = surroundings(examples[e], p);
+      const Origin origin(p, static_cast<int>(e));
+      if (known.try_emplace(s, origin).second) places[s[0]].push_back({s, origin});
+    }
+  }
+
+  Origins origins(grid.size());
+  for (std::size_t i = 0; i < grid.cells.count(); ++i) {
+    const Vec3i p = grid.cells.ijk(i);
+    const Surroundings here = surroundings(grid, p);
+    const auto [entry, fresh] = known.try_emplace(here, Origin{});
+    if (fresh) {
+      if (here[0] >= places.size() || places[here[0]].empty()) {
+        throw InputError("no example has label " + std::to_string(here[0]));
+      }
+      int most = -1;
+      for (const Place& place : places[here[0]]) {
+        const int agree = agreement(here, place.around);
+        if (agree <= most) continue;
+        most = agree;
+        entry->second = place.first;
+      }
+    }
+    Origin best = entry->second;
+    int most = agreement(here, surroundings(examples[best.example], best.cell()));
+    bool continued = false;
+    for (int side = 0; side < 6 && !continued; side += 2) {
+      const Vec3i q = p + step(side);
+      if (!grid.cells.contains(q)) continue;
+      const Origin& near = origins[q];
+      const LabelGrid& example = examples[near.example];
+      const Vec3i there = near.cell() - step(side);
+      if (!example.cells.contains(there) || example.cells[there] != here[0]) continue;
+      if (agreement(here, surroundings(example, there)) < most) continue;
+      best = Origin(there, near.example);
+      continued = true;
+    }
+    origins[p] = best;
+  }
+  return origins;
+}
+
+}  // namespace exemplar

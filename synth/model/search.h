@@ -1,0 +1,30 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "synth/model/catalog.h"
+
+namespace exemplar {
+
+enum class SearchOutcome { Solved, Impossible, GaveUp };
+
+/// Picks one of the labels left to a cell; `draw` is new at each call of one search.
+using ChooseLabel = std::function<int(int cell, std::span<const LabelWord> labels, int draw)>;
+
+/// Decides the cells of `order`, in that order, by depth-first search with propagation after each
+/// decision and conflict-directed backjumping (Prosser 1993, as in `Catalog`): where a cell is left
+/// without labels, the search goes back to the last decision that had a part in it, however far
+/// that is, and takes its label away.
+///
+/// The catalog must be arc consistent, without marks. When Solved it holds the solution; when
+/// Impossible there is none; otherwise more than `conflicts` cells were left without labels, and
+/// the catalog is back where it was but for labels that were shown not to work.
+SearchOutcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order,
+                           const ChooseLabel& choose, std::int64_t conflicts);
+
+}  // namespace exemplar
