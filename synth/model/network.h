@@ -130,6 +130,14 @@ class NetworkPart {
       restrictBySupport(domain, outside(n), whole_->support[relation ^ 1]);
     });
   }
+  /// The same where each cell left outside has one label, its own in `labels`.
+  void restrictByLabels(int c, std::span<LabelWord> domain, std::span<const Label> labels) const {
+    whole_->forEachNeighbor(chosen_[c], [&](int n, int relation) {
+      if (local_[n] >= 0) return;
+      const auto row = whole_->support[relation ^ 1][labels[n]];
+      for (std::size_t w = 0; w < domain.size(); ++w) domain[w] &= row[w];
+    });
+  }
 
  private:
   /// Keeps in `domain` what the labels of `far` support through `table`.

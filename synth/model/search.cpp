@@ -24,6 +24,30 @@ int highestBit(std::span<const std::uint64_t> set) {
 
 }  // namespace
 
+bool labelInOrder(Catalog& catalog, std::span<const std::int32_t> order, const ChooseLabel& choose,
+                  std::int64_t& contradictions) {
+  for (const std::int32_t cell : order) {
+    for (int draw = 0; !catalog.decided(cell); ++draw) {
+      const int label = choose(cell, catalog.domain(cell), draw);
+      catalog.mark();
+      if (catalog.assign(cell, label) && catalog.propagate()) {
+        catalog.commit();
+        break;
+      }
+      ++contradictions;
+      catalog.undoTo(0);
+      // What the label's absence does is known before it is made final.
+      catalog.mark();
+      if (!catalog.remove(cell, label) || !catalog.propagate()) {
+        catalog.undoTo(0);
+        return false;
+      }
+      catalog.commit();
+    }
+  }
+  return true;
+}
+
 SearchOutcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order,
                            const ChooseLabel& choose, std::int64_t conflicts) {
   catalog.keepReasons(static_cast<int>(order.size()) + 1);

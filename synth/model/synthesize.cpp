@@ -7,11 +7,13 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "synth/model/blocks.h"
 #include "synth/model/catalog.h"
 #include "synth/model/choose.h"
 #include "synth/model/explain.h"
 #include "synth/model/origins.h"
 #include "synth/model/problem.h"
+#include "synth/model/start.h"
 #include "synth/model/whole.h"
 
 namespace exemplar {
@@ -56,6 +58,27 @@ std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& exa
   return grids;
 }
 
+Labelling label(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+                ModelStatistics& statistics, const Progress& progress) {
+  const ModelMethod method = problem.options().method;
+  std::optional<std::vector<Label>> start;
+  if (method != ModelMethod::Blocks) {
+    Labelling whole = labelWhole(problem, base, chooser, statistics, progress);
+    if (method == ModelMethod::Whole || whole.status != ModelStatus::Unfinished) return whole;
+  }
+  start = findTiledStart(problem, base, chooser, statistics, progress);
+  if (!start && method == ModelMethod::Blocks) {
+    // No small tile repeats: any labelling of the whole will do to begin with.
+    Labelling whole = labelWhole(problem, base, chooser, statistics, progress);
+    if (whole.status != ModelStatus::Complete) return whole;
+    start = std::move(whole.labels);
+  }
+  if (progress.cancelled()) return {ModelStatus::Cancelled, {}};
+  if (!start) return {ModelStatus::Unfinished, {}};
+  statistics.whole = false;
+  return labelInBlocks(problem, base, chooser, std::move(*start), statistics, progress);
+}
+
 }  // namespace
 
 ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency& adjacency,
@@ -79,7 +102,7 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
   }
   Labelling labelling{ModelStatus::Impossible, {}};
   const LabelChooser chooser(problem);
-  if (possible) labelling = labelWhole(problem, base, chooser, result.statistics, progress);
+  if (possible) labelling = label(problem, base, chooser, result.statistics, progress);
 
   result.status = labelling.status;
   if (result.status == ModelStatus::Impossible) {

@@ -38,7 +38,6 @@ class WholePass {
   Labelling run();
 
  private:
-  bool decide(int cell);
   ModelStatus repair(int cell);
   ModelStatus repairWithin(int cell, int reach);
   void selectRegion(int cell, int reach);
@@ -58,29 +57,6 @@ class WholePass {
   std::vector<std::int32_t> inner_;   // of these, the ones to label, as numbers of the part
   int lastRepaired_ = -1, lastReach_ = 0;
 };
-
-/// Labels one cell; false where no label of it is consistent.
-bool WholePass::decide(int cell) {
-  std::uint32_t draw = draws_;
-  while (!catalog_.decided(cell)) {
-    const int label = chooser_.choose(cell, catalog_.domain(cell), draw++);
-    catalog_.mark();
-    if (catalog_.assign(cell, label) && catalog_.propagate()) {
-      catalog_.commit();
-      return true;
-    }
-    ++statistics_.contradictions;
-    catalog_.undoTo(0);
-    // What the label's absence does is known before anything is committed.
-    catalog_.mark();
-    if (!catalog_.remove(cell, label) || !catalog_.propagate()) {
-      catalog_.undoTo(0);
-      return false;
-    }
-    catalog_.commit();
-  }
-  return true;
-}
 
 void WholePass::selectRegion(int cell, int reach) {
   const ModelOptions& o = problem_.options();
@@ -246,7 +222,13 @@ Labelling WholePass::run() {
         return result;
       }
     }
-    if (catalog_.decided(c) || decide(c)) continue;
+    if (catalog_.decided(c)) continue;
+    const std::uint32_t first = draws_;
+    const auto choose = [&](int cell, std::span<const LabelWord> set, int draw) {
+      return chooser_.choose(cell, set, first + static_cast<std::uint32_t>(draw));
+    };
+    const std::int32_t one[1] = {c};
+    if (labelInOrder(catalog_, one, choose, statistics_.contradictions)) continue;
     const ModelStatus status = repair(c);
     if (status != ModelStatus::Complete) {
       result.status = status;

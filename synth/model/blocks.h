@@ -1,0 +1,26 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/progress.h"
+#include "synth/model/choose.h"
+#include "synth/model/problem.h"
+#include "synth/model/whole.h"
+
+namespace exemplar {
+
+/// Modifies a consistent labelling in blocks that overlap by half along all axes (thesis, Algorithm
+/// 3.4): the cells of a block are set free, their labels restricted by what stands around it, and
+/// chosen anew; by plain propagation first, then by search with backjumping, then exactly. A block
+/// for which none of these comes to an end stays as it was, so the labelling is consistent
+/// throughout.
+///
+/// Blocks that do not touch are modified in parallel; each sees exactly the blocks that come before
+/// it in a fixed order, so the bytes are the same at any number of threads. With an objective or
+/// limits on counts blocks are taken one after the other (section 3.5.3).
+Labelling labelInBlocks(const ModelProblem& problem, const LabelSets& base,
+                        const LabelChooser& chooser, std::vector<Label> start,
+                        ModelStatistics& statistics, const Progress& progress);
+
+}  // namespace exemplar

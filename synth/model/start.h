@@ -1,0 +1,27 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/progress.h"
+#include "synth/model/choose.h"
+#include "synth/model/problem.h"
+
+namespace exemplar {
+
+/// A consistent labelling to begin with: a column of cells, or a tile of up to three by three of
+/// them, that repeats along x and y and meets every demand. The thesis takes the example's corner
+/// or empty space for granted (section 3.3.6); here tiles are searched, smallest first, exactly
+/// where propagation does not decide. None: no tile of these sizes does.
+std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, const LabelSets& base,
+                                                 const LabelChooser& chooser,
+                                                 ModelStatistics& statistics,
+                                                 const Progress& progress);
+
+/// Whether every pair of neighbors in the network may stand side by side.
+bool consistent(const LabelNetwork& network, const std::vector<Label>& labels);
+
+}  // namespace exemplar
