@@ -29,9 +29,14 @@ function(exemplar_library room)
   set_target_properties(exemplar_${room} PROPERTIES
     CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${room})
   target_include_directories(exemplar_${room} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/exemplar>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/exemplar>)
+  # What is only headers is compiled in: programs that use the installed library do not need it.
+  list(TRANSFORM ARG_PRIVATE REPLACE
+    "^((nlohmann_json|tomlplusplus|Eigen3)::.+)$" "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(exemplar_${room} PUBLIC ${ARG_LINK}
     PRIVATE $<BUILD_INTERFACE:exemplar_build_options> ${ARG_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY EXEMPLAR_ROOMS ${room})
 endfunction()
 
 # exemplar_test(<room> SOURCES <file>... LINK <target>...): one test program for a room.

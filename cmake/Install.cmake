@@ -1,0 +1,40 @@
+# What `cmake --install` puts where: the command, the bundled scenes, and for C++ programs the rooms'
+# libraries and headers with the package `exemplar`:
+#
+#     find_package(exemplar 0.1 REQUIRED)
+#     target_link_libraries(mine PRIVATE exemplar::exemplar)    # or single rooms: exemplar::synth
+#
+# tests/consumer is such a program.
+
+include(CMakePackageConfigHelpers)
+set(exemplar_package ${CMAKE_INSTALL_LIBDIR}/cmake/exemplar)
+
+get_property(exemplar_rooms GLOBAL PROPERTY EXEMPLAR_ROOMS)
+list(TRANSFORM exemplar_rooms PREPEND exemplar_)
+add_library(exemplar_all_rooms INTERFACE)
+add_library(exemplar::exemplar ALIAS exemplar_all_rooms)
+set_target_properties(exemplar_all_rooms PROPERTIES EXPORT_NAME exemplar)
+target_link_libraries(exemplar_all_rooms INTERFACE ${exemplar_rooms})
+install(TARGETS exemplar_all_rooms ${exemplar_rooms} EXPORT exemplarTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT exemplarTargets NAMESPACE exemplar:: DESTINATION ${exemplar_package})
+
+# Headers keep their rooms: they include each other from the root of the house.
+foreach(room core mesh sdf voxelize search synth reconstruct measure preview)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/exemplar FILES_MATCHING PATTERN "*.h")
+endforeach()
+
+configure_package_config_file(
+  ${PROJECT_SOURCE_DIR}/cmake/exemplarConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/exemplarConfig.cmake INSTALL_DESTINATION ${exemplar_package})
+write_basic_package_version_file(
+  ${PROJECT_BINARY_DIR}/exemplarConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/exemplarConfig.cmake
+              ${PROJECT_BINARY_DIR}/exemplarConfigVersion.cmake
+        DESTINATION ${exemplar_package})
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/exemplar/scenes FILES_MATCHING PATTERN "*.toml")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/docs/measures.md
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})
