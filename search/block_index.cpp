@@ -65,8 +65,8 @@ struct NearestBlocks {
 // Work in units of about a nanosecond; when the search has cost a quarter of a linear scan, the
 // scan takes over.
 struct Work {
-  static constexpr std::int64_t kNode = 40, kLeaf = 40, kBox = 200, kFine = 800;
-  static std::int64_t block(std::int64_t known) { return 60 + known / 15; }
+  static constexpr std::int64_t kNode = 80, kLeaf = 80, kBox = 200, kFine = 800;
+  static std::int64_t block(std::int64_t known) { return 150 + known / 15; }
   static std::int64_t scanned(std::int64_t known) { return 10 + known / 40; }
 };
 
@@ -146,12 +146,11 @@ class BlockIndexSearch {
     updateBound(found.limit);
     if constexpr (Found::kOne)
       if (bound_ == kernels::kLargestBound) {
-        boxCount_ = 0;
         addBox(likelyEntry(index_.tree, features_), 0);
         workOnBoxes(found);
       }
     Visitor<Found> visitor{*this, found};
-    searchTree(index_.tree, features_, visitor);
+    FeatureTreeSearch(index_.tree, features_, visitor).run();
     if (budget_ < 0) scan(found);
   }
 
@@ -169,7 +168,6 @@ class BlockIndexSearch {
     bool may(int, std::size_t, std::uint32_t) const { return true; }
     bool node() {
       ++search.statistics_.nodes;
-      search.boxCount_ = 0;
       return (search.budget_ -= Work::kNode) >= 0;
     }
     void leaves(int count) {
@@ -194,13 +192,15 @@ class BlockIndexSearch {
 
   template <class Found>
   void workOnBoxes(Found& found) {
-    // The nearest first: each may lower the limit for those behind it.
-    std::uint64_t nearest[kWide * kWide];
-    for (int b = 0; b < boxCount_; ++b)
-      nearest[b] = std::uint64_t{boxes_[b].gap} << 32 | static_cast<std::uint32_t>(b);
-    std::sort(nearest, nearest + boxCount_);
-    for (int n = 0; n < boxCount_ && nearest[n] >> 32 <= bound_; ++n) {
-      const Box& box = boxes_[nearest[n] & 0xffffffff];
+    // The nearest first, of equals the lowest: each may lower the limit for those behind it.
+    std::pair<std::uint64_t, int> nearest[kWide * kWide];
+    const int count = std::exchange(boxCount_, 0);
+    for (int b = 0; b < count; ++b)
+      nearest[b] = {std::uint64_t{boxes_[b].gap} << 32 | boxes_[b].entry, b};
+    std::sort(nearest, nearest + count);
+    for (int n = 0; n < count && nearest[n].first >> 32 <= bound_; ++n) {
+      const Box& box = boxes_[nearest[n].second];
+      if (found.hopeless(box.entry)) continue;
       if (index_.side == 1)
         offer(box.entry, found);
       else
@@ -253,8 +253,9 @@ class BlockIndexSearch {
               source.bricks[min(Vec3i{at.x / 2, at.y / 2, at.z / 2}, last)];
           const int in = (at.x & 1) | (at.y & 1) << 1 | (at.z & 1) << 2;
           for (int f = 0; f < kFeatures; ++f)
-            numbers[n].number[p][f] = static_cast<std::int16_t>(
-                brick.center[f] + ((brick.difference[in][f] - 128) << index_.brickShift));
+            numbers[n].number[p][f] =
+                static_cast<std::int16_t>((brick.center[f] << kernels::kCenterShift) +
+                                          ((brick.difference[in][f] - 128) << index_.brickShift));
         }
       kernels_.numberGaps(numbers, width, features_, cells_, cellCount_, gaps);
     }
@@ -279,25 +280,23 @@ class BlockIndexSearch {
   std::uint32_t searchFine(const IndexedSource<Sample>& source, const Vec3i& first,
                            std::uint32_t within, std::uint32_t* gaps) {
     budget_ -= Work::kFine;
-    const auto width =
-        static_cast<std::int16_t>((1 << index_.fineShift) / 2 + index_.fineFeatures->margin());
-    const auto bricks = [&](const Fine& fine, const kernels::Brick** to) {
+    const auto bricks = [&](const Fine& fine, const kernels::ByteBrick** to) {
       for (int c = 0; c < fine.count; ++c) {
         const Vec3i at = first + fine.at[c];
         to[c] = &source.fineBricks(at.x / 2, at.y / 2, at.z / 2);
         prefetch(*to[c]);
       }
     };
-    const kernels::Brick* now[8];
-    const kernels::Brick* next[8];
+    const kernels::ByteBrick* now[8];
+    const kernels::ByteBrick* next[8];
     std::uint64_t sums[8] = {};
     if (!fine_.empty()) bricks(fine_[0], next);
     for (std::size_t n = 0; n < fine_.size() && within != 0; ++n) {
       std::copy_n(next, 8, now);
       if (n + 1 < fine_.size()) bricks(fine_[n + 1], next);
       std::uint32_t parts[8];
-      kernels_.brickGaps(now, index_.fineShift, width, fine_[n].features, fine_[n].cells,
-                         fine_[n].count, parts);
+      kernels_.byteGaps(now, index_.fineScale, fine_[n].features, fine_[n].cells, fine_[n].count,
+                        parts);
       for (int p = 0; p < 8; ++p) {
         sums[p] += parts[p];
         if (sums[p] > fineBound_) within &= ~(std::uint32_t{1} << p);
@@ -522,7 +521,8 @@ template <class Sample>
 std::int64_t BlockIndex<Sample>::bytes() const {
   std::size_t bytes = data_->tree.bytes() + data_->live.bytes() + data_->allowedBits.bytes();
   for (const IndexedSource<Sample>& source : data_->sources)
-    bytes += (source.bricks.count() + source.fineBricks.count()) * sizeof(kernels::Brick);
+    bytes += source.bricks.count() * sizeof(kernels::Brick) +
+             source.fineBricks.count() * sizeof(kernels::ByteBrick);
   return static_cast<std::int64_t>(bytes);
 }
 

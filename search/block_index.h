@@ -19,8 +19,8 @@ struct BlockIndexOptions {
   /// For each source, in order, which positions may be found (a block's first sample): of the
   /// source's size, allowed where not 0; or null: all. No entries: all positions of all sources.
   std::vector<const Array3D<std::uint8_t>*> allowed;
-  /// Sides of the boxes of positions that the index keeps as one, 1 or 2; 0: 1 for up to a million
-  /// positions, which is faster and takes more memory for each, and 2 beyond.
+  /// Sides of the boxes of positions that the index keeps as one, 1 or 2; 0: 1 for up to two
+  /// million positions, which is faster and takes more memory for each, and 2 beyond.
   int boxSide = 0;
 };
 

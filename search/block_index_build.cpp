@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <span>
 #include <string>
@@ -46,6 +47,40 @@ void slide(Array3D<std::uint8_t>& field, std::size_t stride, int length) {
     orInto(field.data() + step * stride, field.data(), field.count() - step * stride);
     have += step;
   }
+}
+
+// Features at the eight positions of a brick, x first; beyond the last position that one's again.
+using BrickCorners = std::array<const Numbers*, 8>;
+
+Vec3i bricksOf(const Vec3i& positions) {
+  return {(positions.x + 1) / 2, (positions.y + 1) / 2, (positions.z + 1) / 2};
+}
+
+template <class Visit>
+void forBricks(const Array3D<Numbers>& of, const Visit& visit) {
+  const Vec3i last = of.size() - Vec3i{1, 1, 1}, count = bricksOf(of.size());
+  parallelFor(0, static_cast<std::size_t>(count.z), 1, [&](std::size_t begin, std::size_t end) {
+    for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
+      for (int j = 0; j < count.y; ++j)
+        for (int i = 0; i < count.x; ++i) {
+          BrickCorners corners;
+          for (int p = 0; p < 8; ++p)
+            corners[p] =
+                &of[min(Vec3i{2 * i + (p & 1), 2 * j + (p >> 1 & 1), 2 * k + (p >> 2)}, last)];
+          visit(Vec3i{i, j, k}, corners);
+        }
+  });
+}
+
+// The middle of a feature's range, as a brick's center.
+int centerOf(const BrickCorners& corners, int f) {
+  int low = 32767, high = 0;
+  for (const Numbers* n : corners) {
+    low = std::min<int>(low, (*n)[f]);
+    high = std::max<int>(high, (*n)[f]);
+  }
+  constexpr int kStep = 1 << kernels::kCenterShift;
+  return std::min(255, ((low + high) / 2 + kStep / 2) / kStep);
 }
 
 }  // namespace
@@ -196,53 +231,66 @@ void BlockIndexData<Sample>::ranges(const CellArrays& cells, std::uint32_t entry
 }
 
 template <class Sample>
-void BlockIndexData<Sample>::packBricks(const std::vector<Array3D<Numbers>>& numbers,
-                                        Array3D<kernels::Brick> IndexedSource<Sample>::*bricks,
-                                        int& shift) {
-  // The largest difference from a brick's middle decides the step of all.
-  const auto forBricks = [](const Array3D<Numbers>& of, const auto& visit) {
-    const Vec3i size = of.size(), last = size - Vec3i{1, 1, 1};
-    const Vec3i count{(size.x + 1) / 2, (size.y + 1) / 2, (size.z + 1) / 2};
-    parallelFor(0, static_cast<std::size_t>(count.z), 1, [&](std::size_t begin, std::size_t end) {
-      for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
-        for (int j = 0; j < count.y; ++j)
-          for (int i = 0; i < count.x; ++i) {
-            std::array<const Numbers*, 8> corner;
-            for (int p = 0; p < 8; ++p)
-              corner[p] =
-                  &of[min(Vec3i{2 * i + (p & 1), 2 * j + (p >> 1 & 1), 2 * k + (p >> 2)}, last)];
-            for (int f = 0; f < kFeatures; ++f) {
-              int low = 32767, high = 0;
-              for (const Numbers* n : corner) {
-                low = std::min<int>(low, (*n)[f]);
-                high = std::max<int>(high, (*n)[f]);
-              }
-              visit(Vec3i{i, j, k}, f, (low + high) / 2, high - low, corner);
-            }
-          }
-    });
-    return count;
-  };
+void BlockIndexData<Sample>::packBricks(const std::vector<Array3D<Numbers>>& numbers) {
+  // The largest difference from a brick's center decides the step of all.
   std::atomic<int> widest = 0;
   for (const Array3D<Numbers>& of : numbers)
-    forBricks(of, [&](const Vec3i&, int, int, int range, const auto&) {
+    forBricks(of, [&](const Vec3i&, const BrickCorners& corners) {
+      int here = 0;
+      for (int f = 0; f < kFeatures; ++f) {
+        const int center = centerOf(corners, f) << kernels::kCenterShift;
+        for (const Numbers* n : corners) here = std::max(here, std::abs((*n)[f] - center));
+      }
       int seen = widest.load(std::memory_order_relaxed);
-      while (range > seen && !widest.compare_exchange_weak(seen, range)) {
+      while (here > seen && !widest.compare_exchange_weak(seen, here)) {
       }
     });
-  shift = 0;
-  while ((widest / 2 >> shift) + 2 > 127) ++shift;
-  const int half = (1 << shift) / 2;
+  brickShift = 0;
+  while ((widest >> brickShift) + 2 > 127) ++brickShift;
+  const int half = (1 << brickShift) / 2;
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    const Vec3i size = numbers[s].size();
-    Array3D<kernels::Brick>& to = sources[s].*bricks;
-    to = Array3D<kernels::Brick>({(size.x + 1) / 2, (size.y + 1) / 2, (size.z + 1) / 2});
-    forBricks(numbers[s], [&](const Vec3i& at, int f, int center, int, const auto& corner) {
-      kernels::Brick& brick = to[at];
-      brick.center[f] = static_cast<std::int16_t>(center);
+    sources[s].bricks = Array3D<kernels::Brick>(bricksOf(numbers[s].size()));
+    forBricks(numbers[s], [&](const Vec3i& at, const BrickCorners& corners) {
+      kernels::Brick& brick = sources[s].bricks[at];
+      for (int f = 0; f < kFeatures; ++f) {
+        const int center = centerOf(corners, f);
+        brick.center[f] = static_cast<std::uint8_t>(center);
+        for (int p = 0; p < 8; ++p) {
+          const int difference = (*corners[p])[f] - (center << kernels::kCenterShift);
+          brick.difference[p][f] =
+              static_cast<std::uint8_t>(((difference + half) >> brickShift) + 128);
+        }
+      }
+    });
+  }
+}
+
+template <class Sample>
+void BlockIndexData<Sample>::packFineBricks(const std::vector<Array3D<Numbers>>& numbers) {
+  int low[kFeatures], high[kFeatures];
+  std::fill_n(low, kFeatures, 32767);
+  std::fill_n(high, kFeatures, 0);
+  for (const Array3D<Numbers>& of : numbers)
+    for (const Numbers& n : of.values())
+      for (int f = 0; f < kFeatures; ++f) {
+        low[f] = std::min<int>(low[f], n[f]);
+        high[f] = std::max<int>(high[f], n[f]);
+      }
+  for (int f = 0; f < kFeatures; ++f) {
+    const int step = std::max(1, (high[f] - low[f] + 254) / 255);
+    fineScale.base[f] = static_cast<std::int16_t>(low[f]);
+    fineScale.step[f] = static_cast<std::int16_t>(step);
+    fineScale.width[f] = static_cast<std::int16_t>(step / 2 + fineFeatures->margin());
+  }
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    sources[s].fineBricks = Array3D<kernels::ByteBrick>(bricksOf(numbers[s].size()));
+    forBricks(numbers[s], [&](const Vec3i& at, const BrickCorners& corners) {
       for (int p = 0; p < 8; ++p)
-        brick.difference[p][f] =
-            static_cast<std::uint8_t>((((*corner[p])[f] - center + half) >> shift) + 128);
+        for (int f = 0; f < kFeatures; ++f) {
+          const int step = fineScale.step[f];
+          const int value = ((*corners[p])[f] - low[f] + step / 2) / step;
+          sources[s].fineBricks[at].value[p][f] = static_cast<std::uint8_t>(value);
+        }
     });
   }
 }
@@ -252,7 +300,7 @@ void BlockIndexData<Sample>::build(const BlockIndexOptions& options) {
   findPositions(options);
   if (options.boxSide < 0 || options.boxSide > 2)
     throw InputError("the box side of a block index must be 1, 2, or 0 for automatic");
-  side = options.boxSide != 0 ? options.boxSide : positionCount <= 1 << 20 ? 1 : 2;
+  side = options.boxSide != 0 ? options.boxSide : positionCount <= 1 << 21 ? 1 : 2;
   requireMemory(static_cast<double>(positionCount) * (side == 1 ? 160 : 45), "the block index",
                 "use a smaller example or resolution");
   measureSlopes();
@@ -296,7 +344,7 @@ void BlockIndexData<Sample>::build(const BlockIndexOptions& options) {
       for (int axis = 0; axis < 3; ++axis) aligned = aligned && layout->first[c][axis] % 2 == 0;
     std::vector<Array3D<Numbers>> numbers;
     for (auto& ofSource : cells) numbers.push_back(std::move(ofSource[0]));
-    packBricks(numbers, &IndexedSource<Sample>::bricks, brickShift);
+    packBricks(numbers);
 
     const Vec3i cell = layout->size[0];
     fineLayout.emplace(cell, true);
@@ -309,7 +357,7 @@ void BlockIndexData<Sample>::build(const BlockIndexOptions& options) {
       numbers.clear();
       for (const IndexedSource<Sample>& source : sources)
         numbers.push_back(fineFeatures->ofSource(source.samples, fineLayout->size[0]));
-      packBricks(numbers, &IndexedSource<Sample>::fineBricks, fineShift);
+      packFineBricks(numbers);
     }
   }
 }

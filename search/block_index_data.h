@@ -35,9 +35,9 @@ template <class Sample>
 struct IndexedSource {
   Array3D<Sample> samples;
   Vec3i positions{};
-  std::uint32_t offset = 0;            // of its first sample among the samples of all sources
-  Array3D<kernels::Brick> bricks;      // with boxes of side 2: the features of all cells
-  Array3D<kernels::Brick> fineBricks;  // and of their eighths, where blocks are large
+  std::uint32_t offset = 0;                // of its first sample among the samples of all sources
+  Array3D<kernels::Brick> bricks;          // with boxes of side 2: the features of all cells
+  Array3D<kernels::ByteBrick> fineBricks;  // and of their eighths, where blocks are large
 };
 
 template <class Sample>
@@ -54,7 +54,7 @@ struct BlockIndexData {
   // Large blocks: each cell is cut into eight again, and these have features too.
   std::optional<CellLayout> fineLayout;
   std::optional<CellFeatures> fineFeatures;
-  int fineShift = 0;
+  kernels::ByteScale fineScale;
   bool aligned = true;  // all cells of a box of positions lie in one brick each
   Bits live;            // positions that are in the tree
   Bits allowedBits;     // positions that may be found, where not all
@@ -75,9 +75,9 @@ struct BlockIndexData {
   void dropRepeats(IndexedSource<Sample>& source);
   using CellArrays = std::vector<std::array<Array3D<CellFeatures::Numbers>, 8>>;
   CellArrays cellNumbers() const;
-  /// The features of all cells of `size`, in bricks; `shift` is their step.
-  void packBricks(const std::vector<Array3D<CellFeatures::Numbers>>& numbers,
-                  Array3D<kernels::Brick> IndexedSource<Sample>::*bricks, int& shift);
+  /// The features of all cells, and of all their eighths, of each source, in bricks.
+  void packBricks(const std::vector<Array3D<CellFeatures::Numbers>>& numbers);
+  void packFineBricks(const std::vector<Array3D<CellFeatures::Numbers>>& numbers);
   /// The features' ranges over the live positions of a box.
   void ranges(const CellArrays& cells, std::uint32_t entry, std::int16_t* low,
               std::int16_t* high) const;

@@ -78,10 +78,21 @@ void prefetch(const T& what) {
   for (std::size_t byte = 0; byte < sizeof(T); byte += 64) __builtin_prefetch(at + byte);
 }
 
-/// Puts `c` where its gap belongs among the `count` before it.
+/// Puts `c` where its gap belongs among the `count` before it, after those with the same gap.
 inline void insertByGap(const std::uint32_t* gaps, int* order, int& count, int c) {
   int i = count++;
   for (; i > 0 && gaps[order[i - 1]] > gaps[c]; --i) order[i] = order[i - 1];
+  order[i] = c;
+}
+/// The same, but of equal gaps the lower entry comes first: where many blocks are equally near (at
+/// distance 0), the lowest makes all others hopeless.
+inline void insertByGap(const std::uint32_t* gaps, const std::uint32_t* lowest, int* order,
+                        int& count, int c) {
+  const auto before = [&](int a, int b) {
+    return gaps[a] != gaps[b] ? gaps[a] < gaps[b] : lowest[a] < lowest[b];
+  };
+  int i = count++;
+  for (; i > 0 && before(c, order[i - 1]); --i) order[i] = order[i - 1];
   order[i] = c;
 }
 
@@ -115,80 +126,125 @@ inline std::uint32_t likelyEntry(const FeatureTree& tree, const kernels::QueryFe
 ///   `node()`: a node is about to be looked at; false ends the search;
 ///   `leaves(count)`: so many leaves are about to be looked at;
 ///   `add(entry, gap)`: an entry that is left;
-///   `flush()`: now is the time to work on those that were added since `node`.
+///   `flush()`: now is the time to work on those that were added since the last time.
 ///
-/// Leaves are seldom in a cache. So all of a node are asked for first, then their means are looked
-/// at, and the details of those that are left are asked for before the first of them is looked at.
+/// What a tree holds is seldom in a cache, so memory is asked for a step before it is needed: while
+/// the leaves below one node come, those of the node before have their means looked at, those left
+/// before that their details, and what these left is worked on.
 template <class Visitor>
-void searchTree(const FeatureTree& tree, const kernels::QueryFeatures& query, Visitor& visitor) {
-  constexpr int kWide = FeatureTree::kWide;
-  const kernels::Kernels& k = kernels::kernels();
+class FeatureTreeSearch {
+ public:
+  FeatureTreeSearch(const FeatureTree& tree, const kernels::QueryFeatures& query, Visitor& visitor)
+      : tree_(tree), query_(query), visitor_(visitor) {}
+
+  void run() {
+    open_[openCount_++] = {0, 0, 0, tree_.levels() - 1};
+    while (openCount_ > 0) {
+      const Open at = open_[--openCount_];
+      if (at.gap > visitor_.bound() || visitor_.hopeless(at.lowest)) continue;
+      if (!visitor_.node()) return;
+      std::uint32_t gaps[kWide];
+      int order[kWide];
+      const int count = children(at, gaps, order);
+      if (at.level > 0)
+        descend(at, gaps, order, count);
+      else
+        step(at.node * kWide, order, count);
+    }
+    for (int stage = 0; stage < 3; ++stage) step(0, nullptr, 0);
+  }
+
+ private:
+  static constexpr int kWide = FeatureTree::kWide;
   struct Open {
     std::uint32_t gap, node, lowest;
     int level;
   };
-  // Fifteen children wait at each of at most eight levels while the sixteenth is worked on.
-  Open stack[kWide * 9];
-  int open = 0;
-  stack[open++] = {0, 0, 0, tree.levels() - 1};
-  while (open > 0) {
-    const Open at = stack[--open];
-    if (at.gap > visitor.bound() || visitor.hopeless(at.lowest)) continue;
-    if (!visitor.node()) return;
-    const FeatureTree::Node& node = tree.node(at.level, at.node);
+  struct Left {
+    std::uint32_t leaf, within;
     alignas(64) std::uint32_t gaps[kWide];
-    std::uint32_t within = k.boxGaps(node.boxes, query, visitor.bound(), gaps);
-    within &= tree.children(at.level, at.node);
-    const std::uint32_t first = at.node * kWide;
-    int order[kWide], count = 0;
+  };
+
+  // The children of a node that may hold something; above leaves' parents the nearest first.
+  int children(const Open& at, std::uint32_t* gaps, int* order) {
+    const FeatureTree::Node& node = tree_.node(at.level, at.node);
+    std::uint32_t within = kernels_.boxGaps(node.boxes, query_, visitor_.bound(), gaps);
+    within &= tree_.children(at.level, at.node);
+    int count = 0;
     for (; within != 0; within &= within - 1) {
       const int c = std::countr_zero(within);
-      if (visitor.hopeless(node.lowest[c]) ||
-          !visitor.may(at.level, first + static_cast<std::uint32_t>(c), gaps[c]))
+      if (visitor_.hopeless(node.lowest[c]) ||
+          !visitor_.may(at.level, at.node * kWide + static_cast<std::uint32_t>(c), gaps[c]))
         continue;
       if (at.level == 0)
         order[count++] = c;
       else
-        insertByGap(gaps, order, count, c);
+        insertByGap(gaps, node.lowest, order, count, c);
     }
-    if (at.level > 0) {
-      while (count > 0) {  // the nearest on top
-        const auto c = static_cast<std::uint32_t>(order[--count]);
-        prefetch(tree.node(at.level - 1, first + c));
-        stack[open++] = {gaps[c], first + c, node.lowest[c], at.level - 1};
-      }
-      continue;
+    return count;
+  }
+
+  void descend(const Open& at, const std::uint32_t* gaps, const int* order, int count) {
+    const FeatureTree::Node& node = tree_.node(at.level, at.node);
+    while (count > 0) {  // the nearest on top
+      const auto c = static_cast<std::uint32_t>(order[--count]);
+      const std::uint32_t child = at.node * kWide + c;
+      prefetch(tree_.node(at.level - 1, child));
+      open_[openCount_++] = {gaps[c], child, node.lowest[c], at.level - 1};
     }
-    struct Left {
-      std::uint32_t leaf, within;
-      alignas(64) std::uint32_t gaps[kWide];
-    };
-    Left left[kWide];
-    int leftCount = 0;
+  }
+
+  // Takes leaves in, and everything that waits one step on.
+  void step(std::uint32_t first, const int* order, int count) {
     for (int o = 0; o < count; ++o)
-      prefetch(tree.leaf(first + static_cast<std::uint32_t>(order[o])).means);
-    visitor.leaves(count);
-    for (int o = 0; o < count; ++o) {
-      Left& here = left[leftCount];
-      here.leaf = first + static_cast<std::uint32_t>(order[o]);
-      here.within = k.meanGaps(tree.leaf(here.leaf).means, query, visitor.bound(), here.gaps) &
-                    tree.entriesOf(here.leaf);
+      prefetch(tree_.leaf(first + static_cast<std::uint32_t>(order[o])).means);
+    visitor_.flush();
+    lookAtDetails();
+    lookAtMeans();
+    leafCount_ = count;
+    for (int o = 0; o < count; ++o) leaves_[o] = first + static_cast<std::uint32_t>(order[o]);
+  }
+
+  void lookAtMeans() {
+    visitor_.leaves(leafCount_);
+    for (int l = 0; l < leafCount_; ++l) {
+      Left& here = left_[leftCount_];
+      const FeatureTree::Leaf& leaf = tree_.leaf(leaves_[l]);
+      here.leaf = leaves_[l];
+      here.within = kernels_.meanGaps(leaf.means, query_, visitor_.bound(), here.gaps) &
+                    tree_.entriesOf(here.leaf);
       if (here.within == 0) continue;
-      prefetch(tree.details(here.leaf));
-      prefetch(tree.leaf(here.leaf).entry);
-      ++leftCount;
+      prefetch(tree_.details(here.leaf));
+      prefetch(leaf.entry);
+      ++leftCount_;
     }
-    for (int l = 0; l < leftCount; ++l) {
-      Left& here = left[l];
-      here.within &= k.detailGaps(tree.details(here.leaf), query, visitor.bound(), here.gaps);
+  }
+
+  void lookAtDetails() {
+    for (int l = 0; l < leftCount_; ++l) {
+      Left& here = left_[l];
+      here.within &=
+          kernels_.detailGaps(tree_.details(here.leaf), query_, visitor_.bound(), here.gaps);
       for (; here.within != 0; here.within &= here.within - 1) {
         const int c = std::countr_zero(here.within);
-        const std::uint32_t entry = tree.leaf(here.leaf).entry[c];
-        if (!visitor.hopeless(entry)) visitor.add(entry, here.gaps[c]);
+        const std::uint32_t entry = tree_.leaf(here.leaf).entry[c];
+        if (!visitor_.hopeless(entry)) visitor_.add(entry, here.gaps[c]);
       }
     }
-    visitor.flush();
+    leftCount_ = 0;
   }
-}
+
+  const FeatureTree& tree_;
+  const kernels::QueryFeatures& query_;
+  Visitor& visitor_;
+  const kernels::Kernels& kernels_ = kernels::kernels();
+  // Fifteen children wait at each of at most eight levels while the sixteenth is worked on.
+  Open open_[kWide * 9];
+  int openCount_ = 0;
+  std::uint32_t leaves_[kWide];
+  int leafCount_ = 0;
+  Left left_[kWide];
+  int leftCount_ = 0;
+};
 
 }  // namespace exemplar

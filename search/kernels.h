@@ -59,11 +59,23 @@ using MeanPoints = Points<kMeans>;
 using DetailPoints = Points<kDetails>;
 
 /// Features of the cells at the eight positions of a box of side 2, x first:
-/// `center + ((difference - 128) << shift)`, plus or minus half a step and the features' own
-/// margin.
+/// `(center << kCenterShift) + ((difference - 128) << shift)`, plus or minus half a step and the
+/// features' own margin.
 struct Brick {
-  std::int16_t center[kFeatures];
+  std::uint8_t center[kFeatures];
   std::uint8_t difference[8][kFeatures];
+};
+constexpr int kCenterShift = 7;
+
+/// The same with fewer bits, and never in two cache lines: `base + value * step`, plus or minus
+/// half a step and the features' own margin (`width`).
+struct alignas(32) ByteBrick {
+  std::uint8_t value[8][kFeatures];
+};
+struct ByteScale {
+  std::int16_t base[kFeatures];
+  std::int16_t step[kFeatures];  ///< 1..128
+  std::int16_t width[kFeatures];
 };
 
 /// The same, spelt out.
@@ -96,6 +108,8 @@ struct Kernels {
   /// is number `cells[i]` of a block, `bricks[i]` holds the features, each off by at most `width`.
   void (*brickGaps)(const Brick* const* bricks, int shift, std::int16_t width, const QueryFeatures&,
                     const std::uint8_t* cells, int count, std::uint32_t* sums);
+  void (*byteGaps)(const ByteBrick* const* bricks, const ByteScale&, const QueryFeatures&,
+                   const std::uint8_t* cells, int count, std::uint32_t* sums);
   void (*numberGaps)(const BrickNumbers* bricks, std::int16_t width, const QueryFeatures&,
                      const std::uint8_t* cells, int count, std::uint32_t* sums);
   /// As `BlockSum::firstWithin`, for levels.

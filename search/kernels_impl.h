@@ -68,6 +68,7 @@ inline V larger(V a, V b) { return _mm512_max_epi16(a, b); }
 inline V smaller(V a, V b) { return _mm512_min_epi16(a, b); }
 inline V scaled(V a, V w) { return _mm512_mulhi_epu16(a, w); }
 inline V shifted(V a, int s) { return _mm512_sll_epi16(a, _mm_cvtsi32_si128(s)); }
+inline V times(V a, V b) { return _mm512_mullo_epi16(a, b); }
 inline V squares(V a) { return _mm512_madd_epi16(a, a); }
 inline V add32(V a, V b) { return _mm512_add_epi32(a, b); }
 inline void store(void* p, V a) { _mm512_storeu_si512(p, a); }
@@ -119,6 +120,7 @@ inline V larger(V a, V b) { return _mm256_max_epi16(a, b); }
 inline V smaller(V a, V b) { return _mm256_min_epi16(a, b); }
 inline V scaled(V a, V w) { return _mm256_mulhi_epu16(a, w); }
 inline V shifted(V a, int s) { return _mm256_sll_epi16(a, _mm_cvtsi32_si128(s)); }
+inline V times(V a, V b) { return _mm256_mullo_epi16(a, b); }
 inline V squares(V a) { return _mm256_madd_epi16(a, a); }
 inline V add32(V a, V b) { return _mm256_add_epi32(a, b); }
 inline void store(void* p, V a) { _mm256_storeu_si256(static_cast<V*>(p), a); }
@@ -152,6 +154,7 @@ inline V larger(V a, V b) { return _mm_max_epi16(a, b); }
 inline V smaller(V a, V b) { return _mm_min_epi16(a, b); }
 inline V scaled(V a, V w) { return _mm_mulhi_epu16(a, w); }
 inline V shifted(V a, int s) { return _mm_sll_epi16(a, _mm_cvtsi32_si128(s)); }
+inline V times(V a, V b) { return _mm_mullo_epi16(a, b); }
 inline V squares(V a) { return _mm_madd_epi16(a, a); }
 inline V add32(V a, V b) { return _mm_add_epi32(a, b); }
 inline void store(void* p, V a) { _mm_storeu_si128(static_cast<V*>(p), a); }
@@ -218,6 +221,9 @@ inline V scaled(const V& a, const V& w) {
 }
 inline V shifted(const V& a, int s) {
   return each([&](int l) { return static_cast<std::uint16_t>(a.lane[l]) << s; });
+}
+inline V times(const V& a, const V& b) {
+  return each([&](int l) { return a.lane[l] * b.lane[l]; });
 }
 inline V squares(const V& a) {
   std::int32_t r[kLanes / 2];
@@ -371,12 +377,27 @@ void brickGaps(const Brick* const* bricks, int shift, std::int16_t width, const 
   for (int v = 0; v < kVectors; ++v) sum[v] = zero();
   const V middle = same(128);
   for (int i = 0; i < count; ++i) {
-    const V center = quad(bricks[i]->center);
+    std::int16_t centers[kFeatures];
+    for (int f = 0; f < kFeatures; ++f)
+      centers[f] = static_cast<std::int16_t>(bricks[i]->center[f] << kCenterShift);
+    const V center = quad(centers);
     addCell(q, cells[i], same(width), sum, [&](int v) {
       return add(center, shifted(subtract(widen(&bricks[i]->difference[0][0] + v * kLanes), middle),
                                  shift));
     });
   }
+  finishBricks(sum, sums);
+}
+
+void byteGaps(const ByteBrick* const* bricks, const ByteScale& scale, const QueryFeatures& q,
+              const std::uint8_t* cells, int count, std::uint32_t* sums) {
+  V sum[kVectors];
+  for (int v = 0; v < kVectors; ++v) sum[v] = zero();
+  const V base = quad(scale.base), step = quad(scale.step), width = quad(scale.width);
+  for (int i = 0; i < count; ++i)
+    addCell(q, cells[i], width, sum, [&](int v) {
+      return add(base, times(widen(&bricks[i]->value[0][0] + v * kLanes), step));
+    });
   finishBricks(sum, sums);
 }
 
@@ -472,7 +493,7 @@ std::size_t scan(const SumChunks& chunks, const std::uint8_t* block, std::size_t
 
 extern const Kernels kKernels;
 const Kernels kKernels{
-    EXEMPLAR_KERNELS_NAME, boxGaps, meanGaps, detailGaps, brickGaps, numberGaps, scan};
+    EXEMPLAR_KERNELS_NAME, boxGaps, meanGaps, detailGaps, brickGaps, byteGaps, numberGaps, scan};
 
 }  // namespace EXEMPLAR_KERNELS
 }  // namespace exemplar::kernels

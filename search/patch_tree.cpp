@@ -393,10 +393,7 @@ struct PatchTree::Search {
     const Child& c = tree.below_[static_cast<std::size_t>(level)][child];
     return inWindow(c.first, c.last) && (!tree.weight_ || gap <= boundAt(c.weight));
   }
-  bool node() {
-    count = 0;
-    return true;
-  }
+  bool node() { return true; }
   void leaves(int) {}
   void add(std::uint32_t entry, std::uint32_t gap) {
     const std::uint32_t point = tree.points_[entry];
@@ -413,6 +410,7 @@ struct PatchTree::Search {
       return a.gap != b.gap ? a.gap < b.gap : a.entry < b.entry;
     });
     for (int f = 0; f < count && found[f].gap <= limit; ++f) offer(found[f].entry);
+    count = 0;
   }
   void offer(std::uint32_t point) {
     const float w = tree.weight_ ? tree.weight_->data()[point] : 1.0f;
@@ -433,7 +431,7 @@ PatchTree::Candidate PatchTree::nearest(const float* gathered,
   search.update();
   if (start.index == FeatureTree::kNone && !window)
     search.offer(points_[likelyEntry(tree_, features)]);
-  searchTree(tree_, features, search);
+  FeatureTreeSearch(tree_, features, search).run();
   return search.best;
 }
 

@@ -152,12 +152,12 @@ TEST(Kernels, BrickGapsAreSumsOfSquares) {
       pointers[i] = &bricks[i];
       const int cell = cells[i] = std::uint8_t((i + trial) % 8);
       for (int f = 0; f < kFeatures; ++f) {
-        bricks[i].center[f] =
-            std::int16_t(draw(random, 10 + 4 * i + f, 128 << shift, 32767 - (128 << shift)));
+        const int margin = (128 << shift) / 128 + 1;
+        bricks[i].center[f] = std::uint8_t(draw(random, 10 + 4 * i + f, margin, 255 - margin));
         for (int p = 0; p < 8; ++p) {
           const int v = draw(random, 100 + 32 * i + 8 * f + p, 0, 255);
           bricks[i].difference[p][f] = std::uint8_t(v);
-          const int number = bricks[i].center[f] + ((v - 128) << shift);
+          const int number = (bricks[i].center[f] << kCenterShift) + ((v - 128) << shift);
           numbers[i].number[p][f] = std::int16_t(number);
           const int low = f == 0 ? q.meanLow[cell] : q.detailLow[detail(cell, f - 1)];
           const int high = f == 0 ? q.meanHigh[cell] : q.detailHigh[detail(cell, f - 1)];
@@ -176,6 +176,43 @@ TEST(Kernels, BrickGapsAreSumsOfSquares) {
         EXPECT_EQ(sums[p], expected[p]) << k->name;
         EXPECT_EQ(spelt[p], expected[p]) << k->name;
       }
+    }
+  }
+}
+
+TEST(Kernels, ByteGapsAreSumsOfSquares) {
+  for (std::uint64_t trial = 0; trial < 200; ++trial) {
+    const Random random(trial, 7);
+    const QueryFeatures q = randomQuery(trial);
+    const int count = 1 + int(random.below(8, 1));
+    ByteScale scale;
+    for (int f = 0; f < kFeatures; ++f) {
+      scale.step[f] = std::int16_t(1 + random.below(128, 2, f));
+      scale.base[f] = std::int16_t(random.below(32768 - 255 * scale.step[f], 3, f));
+      scale.width[f] = std::int16_t(random.below(100, 4, f));
+    }
+    ByteBrick bricks[8];
+    const ByteBrick* pointers[8];
+    std::uint8_t cells[8];
+    std::uint32_t expected[8] = {};
+    for (int i = 0; i < count; ++i) {
+      pointers[i] = &bricks[i];
+      const int cell = cells[i] = std::uint8_t((i + trial) % 8);
+      for (int f = 0; f < kFeatures; ++f)
+        for (int p = 0; p < 8; ++p) {
+          bricks[i].value[p][f] = std::uint8_t(draw(random, 100 + 32 * i + 8 * f + p, 0, 255));
+          const int number = scale.base[f] + bricks[i].value[p][f] * scale.step[f];
+          const int low = f == 0 ? q.meanLow[cell] : q.detailLow[detail(cell, f - 1)];
+          const int high = f == 0 ? q.meanHigh[cell] : q.detailHigh[detail(cell, f - 1)];
+          expected[p] += square(number, number, std::max(low - scale.width[f], -32768),
+                                std::min(high + scale.width[f], 32767),
+                                f == 0 ? q.meanWeight[cell] : 65535, q.weighted);
+        }
+    }
+    for (const Kernels* k : all()) {
+      std::uint32_t sums[8];
+      k->byteGaps(pointers, scale, q, cells, count, sums);
+      for (int p = 0; p < 8; ++p) EXPECT_EQ(sums[p], expected[p]) << k->name;
     }
   }
 }
