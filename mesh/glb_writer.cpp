@@ -85,14 +85,54 @@ float unit(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 
 class GlbWriter {
  public:
-  GlbWriter(const TriangleMesh& mesh, bool yUp) : mesh_(mesh), yUp_(yUp) {}
+  /// Materials and textures are those of `mesh`, and so are the triangles where there are no parts.
+  GlbWriter(const TriangleMesh& mesh, bool yUp) : mesh_(mesh), part_(&mesh), yUp_(yUp) {}
 
   std::string write() {
+    start(Json::array({{{"mesh", 0}}}));
+    json_["meshes"] = Json::array({addPrimitives()});
+    return finish();
+  }
+
+  std::string write(const MeshInstances& instances) {
+    // Only parts that are placed are written.
+    std::vector<std::uint32_t> meshOf(instances.first.size() - 1, kNone);
+    Json nodes = Json::array(), meshes = Json::array();
+    for (const MeshInstances::Placement& p : instances.placements) {
+      if (instances.first[p.part] == instances.first[p.part + 1]) continue;
+      if (meshOf[p.part] == kNone) {
+        meshOf[p.part] = static_cast<std::uint32_t>(meshes_++);
+      }
+      const Vec3d shift = toFileAxes(p.translation, yUp_);
+      nodes.push_back({{"mesh", meshOf[p.part]}, {"translation", {shift.x, shift.y, shift.z}}});
+    }
+    start(std::move(nodes));
+    std::vector<std::uint32_t> partOf(meshes_);
+    for (std::uint32_t part = 0; part < meshOf.size(); ++part) {
+      if (meshOf[part] != kNone) partOf[meshOf[part]] = part;
+    }
+    for (const std::uint32_t part : partOf) {
+      const TriangleMesh alone = partAlone(instances.first[part], instances.first[part + 1]);
+      part_ = &alone;
+      meshes.push_back(addPrimitives());
+    }
+    part_ = &mesh_;
+    json_["meshes"] = std::move(meshes);
+    return finish();
+  }
+
+ private:
+  void start(Json nodes) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "exemplar"}};
     json_["scene"] = 0;
-    json_["scenes"] = Json::array({{{"nodes", {0}}}});
-    json_["nodes"] = Json::array({{{"mesh", 0}}});
-    addPrimitives();
+    Json roots = Json::array();
+    for (std::size_t n = 0; n < nodes.size(); ++n) roots.push_back(n);
+    json_["scenes"] = Json::array({{{"nodes", std::move(roots)}}});
+    json_["nodes"] = std::move(nodes);
+    numberMaterials();
+  }
+
+  std::string finish() {
     addMaterials();
     json_["accessors"] = std::move(accessors_);
     json_["bufferViews"] = std::move(views_);
@@ -101,7 +141,29 @@ class GlbWriter {
     return container();
   }
 
- private:
+  /// Some of the triangles with the vertices that they use.
+  TriangleMesh partAlone(std::uint32_t firstTriangle, std::uint32_t endTriangle) const {
+    TriangleMesh part;
+    part.materials = mesh_.materials;
+    std::unordered_map<std::uint32_t, std::uint32_t> vertexOf;
+    for (std::uint32_t t = firstTriangle; t < endTriangle; ++t) {
+      auto& triangle = part.triangles.emplace_back();
+      for (int c = 0; c < 3; ++c) {
+        const std::uint32_t v = mesh_.triangles[t][c];
+        const auto [found, isNew] =
+            vertexOf.try_emplace(v, static_cast<std::uint32_t>(part.positions.size()));
+        if (isNew) {
+          part.positions.push_back(mesh_.positions[v]);
+          if (mesh_.hasColors()) part.colors.push_back(mesh_.colors[v]);
+        }
+        triangle[c] = found->second;
+      }
+      if (mesh_.hasUvs()) part.uvs.push_back(mesh_.uvs[t]);
+      if (mesh_.hasMaterials()) part.triangleMaterials.push_back(mesh_.triangleMaterials[t]);
+    }
+    return part;
+  }
+
   int endView(std::size_t begin, int target) {
     Json view{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", binary_.size() - begin}};
     if (target != 0) view["target"] = target;
@@ -127,7 +189,7 @@ class GlbWriter {
               std::numeric_limits<float>::max()};
     Vec3f high = -low;
     for (const std::uint32_t v : source) {
-      const Vec3f p = cast<float>(toFileAxes(mesh_.positions[v], yUp_));
+      const Vec3f p = cast<float>(toFileAxes(part_->positions[v], yUp_));
       low = min(low, p);
       high = max(high, p);
       for (const float c : {p.x, p.y, p.z}) appendLittle(binary_, c);
@@ -142,7 +204,7 @@ class GlbWriter {
     const std::size_t begin = binary_.size();
     const int channels = hasAlpha() ? 4 : 3;
     for (const std::uint32_t v : source) {
-      for (int c = 0; c < channels; ++c) appendLittle(binary_, unit(mesh_.colors[v][c]));
+      for (int c = 0; c < channels; ++c) appendLittle(binary_, unit(part_->colors[v][c]));
     }
     return addAccessor(endView(begin, kVertices), kFloat, source.size(),
                        channels == 4 ? "VEC4" : "VEC3");
@@ -153,12 +215,21 @@ class GlbWriter {
                        [](const auto& c) { return c[3] < 1; });
   }
 
-  /// One primitive for each material, all with the same vertices.
-  void addPrimitives() {
-    const SplitVertices vertices = splitVertices(mesh_);
+  /// The file has the materials that triangles use, in their order.
+  void numberMaterials() {
+    const std::size_t materials = mesh_.hasMaterials() ? mesh_.materials.size() : 1;
+    std::vector<bool> used(materials, !mesh_.hasMaterials());
+    for (const std::uint32_t m : mesh_.triangleMaterials) used[m] = true;
+    std::uint32_t next = 0;
+    for (std::size_t m = 0; m < materials; ++m) materialOf_.push_back(used[m] ? next++ : kNone);
+  }
+
+  /// A mesh of the file: one primitive for each material, all with the same vertices.
+  Json addPrimitives() {
+    const SplitVertices vertices = splitVertices(*part_);
     Json attributes{{"POSITION", addPositions(vertices.source)}};
-    if (mesh_.hasColors()) attributes["COLOR_0"] = addColors(vertices.source);
-    if (mesh_.hasUvs()) {
+    if (part_->hasColors()) attributes["COLOR_0"] = addColors(vertices.source);
+    if (part_->hasUvs()) {
       const std::size_t begin = binary_.size();
       for (const Vec2f& uv : vertices.uvs) {
         appendLittle(binary_, uv.x);
@@ -168,10 +239,10 @@ class GlbWriter {
           addAccessor(endView(begin, kVertices), kFloat, vertices.uvs.size(), "VEC2");
     }
     // The triangles of each material, one behind the other in one view.
-    const std::size_t materials = mesh_.hasMaterials() ? mesh_.materials.size() : 1;
+    const std::size_t materials = part_->hasMaterials() ? part_->materials.size() : 1;
     std::vector<std::vector<std::uint32_t>> trianglesOf(materials);
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      trianglesOf[mesh_.hasMaterials() ? mesh_.triangleMaterials[t] : 0].push_back(
+    for (std::size_t t = 0; t < part_->triangles.size(); ++t) {
+      trianglesOf[part_->hasMaterials() ? part_->triangleMaterials[t] : 0].push_back(
           static_cast<std::uint32_t>(t));
     }
     const std::size_t begin = binary_.size();
@@ -183,18 +254,15 @@ class GlbWriter {
     const int view = endView(begin, kIndices);
     Json primitives = Json::array();
     std::size_t offset = 0;
-    for (const auto& triangles : trianglesOf) {
-      if (triangles.empty()) {
-        materialOf_.push_back(kNone);
-        continue;
-      }
-      materialOf_.push_back(used_++);
+    for (std::size_t m = 0; m < materials; ++m) {
+      const auto& triangles = trianglesOf[m];
+      if (triangles.empty()) continue;
       const int indices = addAccessor(view, kUnsignedInt, 3 * triangles.size(), "SCALAR", offset);
       primitives.push_back(
-          {{"attributes", attributes}, {"indices", indices}, {"material", materialOf_.back()}});
+          {{"attributes", attributes}, {"indices", indices}, {"material", materialOf_[m]}});
       offset += 12 * triangles.size();
     }
-    json_["meshes"] = Json::array({{{"primitives", std::move(primitives)}}});
+    return {{"primitives", std::move(primitives)}};
   }
 
   void addMaterials() {
@@ -277,12 +345,13 @@ class GlbWriter {
   }
 
   const TriangleMesh& mesh_;
+  const TriangleMesh* part_;  // what is being written: the mesh, or a part of it
   bool yUp_;
+  std::size_t meshes_ = 0;  // meshes of the file so far
   Json json_;
   Json accessors_ = Json::array(), views_ = Json::array(), images_ = Json::array(),
        textures_ = Json::array(), extensions_;
   std::string binary_;
-  std::uint32_t used_ = 0;
   std::vector<std::uint32_t> materialOf_;
   std::vector<int> textureOf_;
 };
@@ -290,5 +359,9 @@ class GlbWriter {
 }  // namespace
 
 std::string formatGlb(const TriangleMesh& mesh, bool yUp) { return GlbWriter(mesh, yUp).write(); }
+
+std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp) {
+  return GlbWriter(mesh, yUp).write(instances);
+}
 
 }  // namespace exemplar

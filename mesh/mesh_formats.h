@@ -44,6 +44,18 @@ std::string formatStl(const TriangleMesh& mesh, bool yUp);
 std::string formatOff(const TriangleMesh& mesh, bool yUp);
 std::string formatGlb(const TriangleMesh& mesh, bool yUp);
 
+/// Parts of a mesh, each placed any number of times.
+struct MeshInstances {
+  struct Placement {
+    std::uint32_t part = 0;
+    Vec3d translation;
+  };
+  std::vector<std::uint32_t> first;  ///< each part's first triangle, and the number of triangles
+  std::vector<Placement> placements;
+};
+/// A `.glb` with a mesh for each part that has triangles and is placed, and a node for each place.
+std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp);
+
 /// World to file, for a file with y up, and back. Subtracting from 0 makes no negative zeros.
 inline Vec3d toFileAxes(const Vec3d& p, bool yUp) { return yUp ? Vec3d{p.x, p.z, 0 - p.y} : p; }
 inline Vec3d fromFileAxes(const Vec3d& p, bool yUp) { return yUp ? Vec3d{p.x, 0 - p.z, p.y} : p; }

@@ -17,6 +17,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "mesh/procedural/piece_scenes.h"
 #include "mesh/procedural/processes.h"
 
 namespace exemplar {
@@ -202,6 +203,16 @@ const std::map<std::string, Reader>& readers() {
   return all;
 }
 
+/// The kinds that are made of model pieces.
+const std::map<std::string, ProcessSample (*)()>& pieceKinds() {
+  static const std::map<std::string, ProcessSample (*)()> all{
+      {"canyon", makeCanyon},   {"castle", makeCastle}, {"city", makeCity},
+      {"cluster", makeCluster}, {"forest", makeForest}, {"gears", makeGears},
+      {"library", makeLibrary}, {"paths", makePaths},
+  };
+  return all;
+}
+
 /// The folders that may hold bundled scenes, the user's choice first.
 std::vector<fs::path> sceneFolders() {
   std::vector<fs::path> folders;
@@ -224,20 +235,41 @@ Scene readScene(const fs::path& path, const SceneOptions& options) {
   scene.name = path.stem().string();
   const std::string kind = file.word("kind");
   const auto reader = readers().find(kind);
-  if (reader == readers().end()) {
+  const auto pieces = pieceKinds().find(kind);
+  if (reader == readers().end() && pieces == pieceKinds().end()) {
     std::string names;
     for (const auto& [name, read] : readers()) names += (names.empty() ? "" : ", ") + name;
+    for (const auto& [name, make] : pieceKinds()) names += ", " + name;
     file.failKey("kind", "unknown kind '" + kind + "'; known are " + names);
   }
   scene.resolution = file.integer("resolution", scene.resolution, 8, 1024);
   scene.scale = file.triple("scale", scene.scale, 0.01, 64);
   scene.block = file.integer("block", scene.block, 2, 256);
   const std::uint64_t seed = file.seed("seed");
-  ProcessSample sample = reader->second(file, options.extent, options.seed.value_or(seed));
+  ProcessSample sample;
+  if (reader != readers().end()) {
+    sample = reader->second(file, options.extent, options.seed.value_or(seed));
+  } else {
+    file.requireNothingElse();
+    if (options.extent != Vec3d{1, 1, 1}) {
+      throw InputError(path.string() +
+                       ": a scene made of model pieces is of one size; use exemplar synth");
+    }
+    sample = pieces->second();
+  }
   scene.mesh = std::move(sample.mesh);
   scene.box = sample.box;
+  scene.cell = sample.cell;
   validate(scene.mesh, path.string());
   return scene;
+}
+
+bool isPieceScene(const fs::path& path) {
+  try {
+    return pieceKinds().contains(SceneFile(findScene(path.string())).word("kind"));
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 fs::path findScene(const std::string& name) {

@@ -25,6 +25,8 @@ struct Scene {
   int resolution = 64;   ///< samples along the box's longest side
   Vec3d scale{2, 2, 1};  ///< the size of a result, in boxes
   int block = 16;        ///< block size at the finest level, in samples
+  /// For a scene made of model pieces: the side of their cells, which fill the box exactly.
+  std::optional<Vec3d> cell;
 };
 
 struct SceneOptions {
@@ -34,11 +36,15 @@ struct SceneOptions {
   Vec3d extent{1, 1, 1};
 };
 
-/// Makes a scene from its file. Kinds: chainmail, fibers, metal, grid, balls, terrain, grass (each
-/// file states its parameters, all with units and ranges; an unknown key is an error). The same
+/// Makes a scene from its file. Kinds: chainmail, fibers, metal, grid, balls, terrain, grass, and,
+/// made of model pieces, castle, city, canyon, cluster, paths, gears, forest, library (each file
+/// states its parameters, all with units and ranges; an unknown key is an error). The same
 /// file and options give the same scene, to the byte. Throws `InputError` naming file, line and
 /// key.
 Scene readScene(const std::filesystem::path& path, const SceneOptions& options = {});
+
+/// Whether a scene file's kind is one that is made of model pieces. False where it cannot be read.
+bool isPieceScene(const std::filesystem::path& path);
 
 /// The bundled scene file called `name` ("chainmail"), or a path as it is. Looks in the folder that
 /// EXEMPLAR_SCENES names, in the source tree and in the installed share folder. Throws `InputError`

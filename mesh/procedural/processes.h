@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "mesh/triangle_mesh.h"
 
@@ -18,6 +19,7 @@ namespace exemplar {
 struct ProcessSample {
   TriangleMesh mesh;
   Box3d box;
+  std::optional<Vec3d> cell;  ///< of a sample made of model pieces
 };
 
 /// Identical tori woven 4-in-1: every ring passes through two rings of the row before and two of

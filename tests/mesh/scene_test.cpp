@@ -58,13 +58,59 @@ TEST_P(BundledScene, GrowsWithItsExtent) {
   EXPECT_GT(boundingBox(two.mesh).size().x, 1.5 * one.box.size().x);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BundledScene, testing::ValuesIn(bundledScenes()),
+/// The bundled scenes that are, or are not, made of model pieces.
+std::vector<std::string> scenesOf(bool pieces) {
+  std::vector<std::string> names;
+  for (const std::string& name : bundledScenes()) {
+    if (isPieceScene(sceneFile(name)) == pieces) names.push_back(name);
+  }
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BundledScene, testing::ValuesIn(scenesOf(false)),
                          [](const auto& test) { return test.param; });
 
-TEST(BundledScenes, AreTheSevenOfThePaper) {
-  EXPECT_THAT(bundledScenes(), testing::ElementsAre("balls", "chainmail", "fibers", "grass", "grid",
+TEST(BundledScenes, AreTheSevenOfLagaesPaperAndTheEightOfMerrellsThesis) {
+  EXPECT_THAT(scenesOf(false), testing::ElementsAre("balls", "chainmail", "fibers", "grass", "grid",
                                                     "metal", "terrain"));
+  EXPECT_THAT(scenesOf(true), testing::ElementsAre("canyon", "castle", "city", "cluster", "forest",
+                                                   "gears", "library", "paths"));
 }
+
+class PieceScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(PieceScene, FillsItsBoxOfWholeCells) {
+  const Scene scene = readScene(sceneFile(GetParam()));
+  ASSERT_TRUE(scene.cell.has_value());
+  const Vec3d size = scene.box.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cells = size[axis] / (*scene.cell)[axis];
+    EXPECT_EQ(cells, std::floor(cells));
+    EXPECT_GE(cells, 5);
+  }
+  const Box3d mesh = boundingBox(scene.mesh);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_GE(mesh.min[axis], scene.box.min[axis]);
+    EXPECT_LE(mesh.max[axis], scene.box.max[axis]);
+  }
+  // Something reaches each side, so that results have sides, too; the top layer is air.
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_EQ(mesh.min[axis], scene.box.min[axis]);
+    EXPECT_EQ(mesh.max[axis], scene.box.max[axis]);
+  }
+  EXPECT_LE(mesh.max.z, scene.box.max.z - 1 + 1e-9);
+  EXPECT_FALSE(scene.mesh.materials.empty());
+}
+
+TEST_P(PieceScene, IsTheSameEachTimeAndOfOneSize) {
+  const Scene a = readScene(sceneFile(GetParam())), b = readScene(sceneFile(GetParam()));
+  EXPECT_EQ(a.mesh.positions, b.mesh.positions);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  EXPECT_THROW(readScene(sceneFile(GetParam()), {.extent = {2, 1, 1}}), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PieceScene, testing::ValuesIn(scenesOf(true)),
+                         [](const auto& test) { return test.param; });
 
 /// The vertices of each connected component, in the order of their first vertex.
 std::vector<std::vector<Vec3d>> components(const TriangleMesh& mesh) {
