@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,23 @@ using CommandRun = std::function<void()>;
 
 /// Each adds one subcommand to the parser and returns what runs it.
 CommandRun addSynthCommand(CLI::App& app);
+/// `synth` with the options of model synthesis, in place of `addSynthCommand` where the arguments
+/// ask for it: by --engine model, or by an example that holds labels.
+CommandRun addModelSynthCommand(CLI::App& app);
+bool wantsModelEngine(int argc, const char* const* argv);
 CommandRun addSdfCommand(CLI::App& app);
 CommandRun addMeshCommand(CLI::App& app);
 CommandRun addMeasureCommand(CLI::App& app);
 CommandRun addRenderCommand(CLI::App& app);
 CommandRun addSceneCommand(CLI::App& app);
+CommandRun addVoxelizeCommand(CLI::App& app);
+CommandRun addInfoCommand(CLI::App& app);
+
+/// Synthesis that could not be completed: the command answers it with exit status 3.
+class Unfinished : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// What every command has: `--threads` and `--quiet`.
 struct CommonOptions {

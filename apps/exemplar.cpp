@@ -19,7 +19,7 @@
 
 namespace {
 
-enum ExitStatus { kDone = 0, kWrongInput = 2, kInterrupted = 4 };
+enum ExitStatus { kDone = 0, kWrongInput = 2, kUnfinished = 3, kInterrupted = 4 };
 
 /// The first line of a message, so that an error stays one line.
 std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -35,7 +35,8 @@ int main(int argc, char** argv) {
   CLI::App app{
       "exemplar: give it one example; get as much more of it as you want.\n"
       "An example is a mesh (.obj .ply .stl .off .glb), a volume (.vdb), a height map (.png .pgm\n"
-      ".asc) or a scene (.toml). 'exemplar COMMAND --help' tells a command's options."};
+      ".asc), a grid of labels (.txt .vox) or a scene (.toml). 'exemplar COMMAND --help' tells a\n"
+      "command's options."};
   app.name("exemplar");
   app.set_version_flag("--version", EXEMPLAR_VERSION);
   app.require_subcommand(1);
@@ -43,9 +44,15 @@ int main(int argc, char** argv) {
 
   using exemplar::CommandRun;
   std::vector<std::pair<const char*, CommandRun>> commands{
-      {"synth", exemplar::addSynthCommand(app)},     {"sdf", exemplar::addSdfCommand(app)},
-      {"mesh", exemplar::addMeshCommand(app)},       {"render", exemplar::addRenderCommand(app)},
-      {"measure", exemplar::addMeasureCommand(app)}, {"scene", exemplar::addSceneCommand(app)},
+      {"synth", exemplar::wantsModelEngine(argc, argv) ? exemplar::addModelSynthCommand(app)
+                                                       : exemplar::addSynthCommand(app)},
+      {"sdf", exemplar::addSdfCommand(app)},
+      {"mesh", exemplar::addMeshCommand(app)},
+      {"render", exemplar::addRenderCommand(app)},
+      {"measure", exemplar::addMeasureCommand(app)},
+      {"scene", exemplar::addSceneCommand(app)},
+      {"voxelize", exemplar::addVoxelizeCommand(app)},
+      {"info", exemplar::addInfoCommand(app)},
   };
 
   try {
@@ -63,6 +70,8 @@ int main(int argc, char** argv) {
     return kDone;
   } catch (const exemplar::Interrupted& e) {
     return fail(e.what(), kInterrupted);
+  } catch (const exemplar::Unfinished& e) {
+    return fail(e.what(), kUnfinished);
   } catch (const exemplar::InputError& e) {
     return fail(e.what(), kWrongInput);
   } catch (const std::bad_alloc&) {

@@ -5,9 +5,12 @@
 
 #include "apps/command.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "mesh/scene.h"
 #include "reconstruct/field_to_mesh.h"
 #include "reconstruct/transfer.h"
+#include "voxelize/label_file.h"
+#include "voxelize/label_mesh.h"
 
 namespace exemplar {
 namespace {
@@ -24,6 +27,13 @@ Origins identityOrigins(const Vec3i& size) {
 TriangleMesh loadForPicture(const std::filesystem::path& path, const ExampleOptions& options,
                             const Progress& progress) {
   if (isMeshFile(path)) return readMesh(path, options.mesh);
+  if (isLabelFile(path)) {
+    const TriangleMesh mesh = labelMesh(readLabels(path), {.closedLabels = false});
+    if (mesh.triangles.empty()) throw InputError(path.string() + ": all of its cells are empty");
+    return mesh;
+  }
+  // A scene of model pieces is shown as it is, not as what a distance field leaves of it.
+  if (lowerExtension(path) == ".toml" && isPieceScene(path)) return readScene(path).mesh;
   const Example example = loadExample(path, options, progress);
   TriangleMesh mesh = fieldToMesh(example.field);
   if (example.mesh) {

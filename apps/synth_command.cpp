@@ -128,9 +128,6 @@ void synth(const Options& options) {
   const Stopwatch total;
   const ThreadLimit limit(options.common.threads);
   Terminal terminal(options.common.quiet);
-  if (options.engine == "model") {
-    throw InputError("--engine model: not there yet; use --engine geometry");
-  }
   requireOutput(options.output, kOutputEndings);
   if (!options.preview.empty()) requireOutput(options.preview, ".png");
   if (!options.stats.empty()) requireOutput(options.stats, ".json");
@@ -224,7 +221,10 @@ CommandRun addSynthCommand(CLI::App& app) {
                       "(the example's own choice, mostly 2,2,1)");
   command->add_option("--seed", options->seed, "another seed, another result")
       ->capture_default_str();
-  command->add_option("--engine", options->engine, "geometry (distance fields) or model (labels)")
+  command
+      ->add_option("--engine", options->engine,
+                   "geometry (this: distance fields) or model (labels and pieces, with options of "
+                   "its own: exemplar synth --engine model --help)")
       ->check(CLI::IsMember({"geometry", "model"}))
       ->capture_default_str();
   command

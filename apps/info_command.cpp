@@ -1,0 +1,160 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+// exemplar info: what an example holds, and what model synthesis has to know of it.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "apps/label_example.h"
+#include "apps/terminal.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "mesh/mesh_file.h"
+#include "mesh/mesh_health.h"
+#include "voxelize/adjacency.h"
+
+namespace exemplar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string example, json;
+  bool list = false;
+  LabelReading reading;
+  CommonOptions common;
+};
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, share < 0.01 ? "%.2g %%" : "%.1f %%", 100 * share);
+  return text;
+}
+
+Json toJson(const Vec3i& v) { return {v.x, v.y, v.z}; }
+
+/// A mesh without cells to cut it along: what is sound about it.
+Json meshInfo(const Options& options, Terminal& terminal) {
+  const TriangleMesh mesh = readMesh(options.example, options.reading.mesh);
+  const MeshHealth health = meshHealth(mesh);
+  const Vec3d size = boundingBox(mesh).size();
+  char box[96];
+  std::snprintf(box, sizeof box, "%.6g x %.6g x %.6g", size.x, size.y, size.z);
+  terminal.say("mesh", options.example + ": " + readableHealth(health));
+  terminal.say("box", box);
+  terminal.say("materials", withThousands(static_cast<long long>(mesh.materials.size())));
+  terminal.say("pieces", "give --cell S to see the model pieces that a grid cuts it into");
+  return {{"triangles", health.triangles},
+          {"closed", health.closed()},
+          {"manifold", health.manifold()},
+          {"size", {size.x, size.y, size.z}},
+          {"materials", mesh.materials.size()}};
+}
+
+Json labelInfo(const Options& options, Terminal& terminal) {
+  const LabelExample example =
+      loadLabelExample(options.example, options.reading, terminal.progress());
+  terminal.stopIfInterrupted();
+  const LabelGrid& grid = example.grid;
+  const Adjacency adjacency = findAdjacency(grid);
+  terminal.say("example", options.example + ": " + example.description);
+
+  const auto cells = static_cast<double>(grid.cells.count());
+  std::int64_t empty = 0, used = 0, single = 0;
+  for (int label = 0; label < grid.labelCount(); ++label) {
+    const std::int64_t n = adjacency.frequency[label];
+    if (isEmpty(grid.labels[label])) empty += n;
+    used += n > 0;
+    single += n == 1;
+  }
+  terminal.say("labels", withThousands(used) + " that cells have, " + withThousands(single) +
+                             " of them once; " + percent(static_cast<double>(empty) / cells) +
+                             " of the cells are empty");
+  Json json{{"size", toJson(grid.size())},
+            {"labels", grid.labelCount()},
+            {"labels_used", used},
+            {"labels_used_once", single},
+            {"empty_share", static_cast<double>(empty) / cells}};
+
+  // How many of all ordered pairs of labels the example allows: the fewer, the more is decided.
+  const char* axes[] = {"x", "y", "z"};
+  Json density;
+  std::string text;
+  const double pairs = static_cast<double>(used) * static_cast<double>(used);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double share = static_cast<double>(adjacency.rules[axis].pairs.size()) / pairs;
+    density[axes[axis]] = share;
+    text += std::string(axis ? ", " : "") + axes[axis] + " " + percent(share) + " (" +
+            withThousands(static_cast<long long>(adjacency.rules[axis].pairs.size())) + " pairs)";
+  }
+  terminal.say("adjacency", text);
+  json["adjacency_density"] = density;
+  if (example.pieces) {
+    const ModelPieces& p = *example.pieces;
+    const auto images = [&](const std::vector<Label>& of) {
+      return std::count_if(of.begin(), of.end(), [](Label l) { return l != ModelPieces::kNone; });
+    };
+    terminal.say("mirrors", withThousands(images(p.mirroredX)) +
+                                " labels have a mirror image in x, " +
+                                withThousands(images(p.mirroredY)) + " in y, " +
+                                withThousands(images(p.turned)) + " are there a quarter turned");
+    json["mirrored_x"] = images(p.mirroredX);
+    json["mirrored_y"] = images(p.mirroredY);
+    json["turned"] = images(p.turned);
+    json["piece_triangles"] = p.mesh.triangles.size();
+  }
+  if (options.list) {
+    for (int label = 0; label < grid.labelCount(); ++label) {
+      terminal.say("label " + std::to_string(label),
+                   withThousands(adjacency.frequency[label]) + " cells" +
+                       (grid.labels[label].name.empty() ? "" : ", " + grid.labels[label].name));
+    }
+  }
+  Json labels = Json::array();
+  for (int label = 0; label < grid.labelCount(); ++label) {
+    labels.push_back({{"name", grid.labels[label].name}, {"cells", adjacency.frequency[label]}});
+  }
+  json["label_list"] = std::move(labels);
+  return json;
+}
+
+void info(const Options& options) {
+  const ThreadLimit limit(options.common.threads);
+  const bool print = options.json == "-";
+  Terminal terminal(options.common.quiet || print);
+  if (!options.json.empty() && !print) requireOutput(options.json, ".json");
+  const bool plainMesh = isMeshFile(options.example) && options.reading.cell.empty();
+  const Json json = plainMesh ? meshInfo(options, terminal) : labelInfo(options, terminal);
+  terminal.stopIfInterrupted();
+  // Names may hold bytes that are not UTF-8.
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (print) {
+    std::fputs(text.c_str(), stdout);
+  } else if (!options.json.empty()) {
+    writeFile(options.json, text);
+  }
+}
+
+}  // namespace
+
+CommandRun addInfoCommand(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("info", "Tell an example's labels and which stand side by side");
+  command
+      ->add_option("EXAMPLE", options->example,
+                   "a label grid (.txt .vox .vdb), a picture, a scene, or a mesh with --cell")
+      ->required();
+  command->add_flag("--list", options->list, "list every label with its number of cells");
+  command->add_option("--json", options->json, "write it to this .json; - prints it");
+  addLabelReadingOptions(*command, options->reading);
+  addCommonOptions(*command, options->common);
+  return [options] { info(*options); };
+}
+
+}  // namespace exemplar
