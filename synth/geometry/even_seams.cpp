@@ -74,8 +74,36 @@ class Relaxation {
     });
   }
 
-  /// Jacobi's rounds: all new values from the old ones.
-  void run(int rounds) {
+  /// Gives the values the slopes of their sources, in Jacobi's rounds: all new values from the old
+  /// ones.
+  void blend(const DistanceField& example, const Origins& origins, int rounds) {
+    if (rounds == 0) return;
+    std::vector<std::array<float, 6>> rises(where_.size());
+    overSamples([&](std::size_t n, std::size_t s) {
+      for (int d = 0; d < 6; ++d) {
+        const std::size_t t = neighbors_[n][d];
+        rises[n][d] = t == s ? 0 : rise(example, origins, s, t, kSteps[d]);
+      }
+    });
+    for (int round = 0; round < rounds; ++round) {
+      overSamples([&](std::size_t n, std::size_t s) {
+        float sum = 0;
+        int count = 0;
+        for (int d = 0; d < 6; ++d) {
+          const std::size_t t = neighbors_[n][d];
+          if (t == s) continue;
+          sum += values_[t] - rises[n][d];
+          ++count;
+        }
+        const float v = count == 0 ? values_[s] : sum / static_cast<float>(count);
+        next_[n] = values_[s] < 0 ? std::min(v, -kLeast) : std::max(v, kLeast);
+      });
+      overSamples([&](std::size_t n, std::size_t s) { values_[s] = next_[n]; });
+    }
+  }
+
+  /// Relaxes the values to slope 1, in Jacobi's rounds.
+  void relax(int rounds) {
     std::vector<float> held(where_.size());
     overSamples([&](std::size_t n, std::size_t s) { held[n] = distanceToZero(n, s); });
     // Without a surface near seams there is nothing to be a distance to.
@@ -97,6 +125,29 @@ class Relaxation {
   const std::vector<float>& values() const { return values_; }
 
  private:
+  /// How near to the surface a sample that would cross it stays, in voxels.
+  static constexpr float kLeast = 0.05f;
+
+  /// By how much the sources of s and of t, one step on, say that the field rises from s to t, in
+  /// voxels.
+  static float rise(const DistanceField& example, const Origins& origins, std::size_t s,
+                    std::size_t t, const Vec3i& step) {
+    const Vec3i from = origins.values()[s].cell(), to = origins.values()[t].cell();
+    const float voxel = static_cast<float>(example.voxelSize);
+    if (to - from == step) return (example.values[to] - example.values[from]) / voxel;
+    float sum = 0;
+    int count = 0;
+    if (const Vec3i on = from + step; example.values.contains(on)) {
+      sum += example.values[on] - example.values[from];
+      ++count;
+    }
+    if (const Vec3i back = to - step; example.values.contains(back)) {
+      sum += example.values[to] - example.values[back];
+      ++count;
+    }
+    return count == 0 ? 0 : sum / (static_cast<float>(count) * voxel);
+  }
+
   template <class Body>
   void overSamples(const Body& body) const {
     parallelFor(0, where_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -153,7 +204,8 @@ DistanceField evenSeams(const DistanceField& example, const Origins& origins,
   }
   const std::vector<std::size_t> where = nearSeams(origins, options.reach);
   Relaxation relaxation(std::move(voxels), origins, where);
-  relaxation.run(options.rounds);
+  relaxation.blend(example, origins, options.blends);
+  relaxation.relax(options.rounds);
   for (const std::size_t s : where) {
     float v = relaxation.values()[s] * voxel;
     if (example.truncation > 0) v = std::clamp(v, -example.truncation, example.truncation);

@@ -10,20 +10,24 @@ namespace exemplar {
 
 struct EvenSeamsOptions {
   int reach = 4;    ///< how far from a seam samples may change, in steps; >= 0: 0 for not at all
-  int rounds = 10;  ///< of relaxation, half a voxel each; >= 0
+  int blends = 20;  ///< rounds in the gradient domain; >= 0
+  int rounds = 3;   ///< of relaxation to slope 1, half a voxel each; >= 0
 };
 
 /// The field that origins (example 0, no turns) copy from `example`, with the steps between copied
 /// pieces evened out, so that it is nearly a distance across seams too.
 ///
-/// Near seams the field is relaxed to slope 1 with its zero set held in place (Russo, Smereka: "A
-/// remark on computing distance functions", J. Comput. Phys. 163(1), 2000,
-/// doi:10.1006/jcph.2000.6553, sections 2-3). Blending in the gradient domain first would even out
-/// more, but rounds off what is thin; this does not change which samples are solid.
+/// Near seams the field is first given the slopes of its sources, as nearly as one field can have
+/// them all: Jacobi's rounds on Poisson's equation, at a seam with the mean of what both sides say
+/// (Perez, Gangnet, Blake: "Poisson image editing", SIGGRAPH 2003, doi:10.1145/882262.882269,
+/// section 2). A sample keeps its sign, so that nothing thin is rounded off and which samples are
+/// solid does not change: the surface moves between samples only. Then it is relaxed to slope 1
+/// with its zero set held in place (Russo, Smereka: "A remark on computing distance functions", J.
+/// Comput. Phys. 163(1), 2000, doi:10.1006/jcph.2000.6553, sections 2-3).
 ///
 /// Samples more than `reach` steps from every seam are the example's to the bit, and the others
-/// keep their sign. Where no surface is near any seam all are. O(samples near seams x rounds). The
-/// same bytes at any number of threads.
+/// keep their sign. Where no surface is near any seam nothing is relaxed. O(samples near seams x
+/// rounds). The same bytes at any number of threads.
 DistanceField evenSeams(const DistanceField& example, const Origins& origins,
                         const EvenSeamsOptions& options = {});
 

@@ -31,7 +31,10 @@ constexpr int kFirstIterations = 8, kIterations = 2;
 /// Distance of neighbouring patches where the search is by PatchMatch.
 constexpr int kStride = 2;
 /// Seams see distances up to here, in voxels: one through air or through solid is free.
-constexpr float kSeamTruncation = 2.5f;
+constexpr float kSeamTruncation = 4;
+/// Seams of the coarser levels, where a few samples reach far: pieces grow into large ones.
+constexpr SeamOptions kCoarseSeams{.reach = 16, .length = 0.05};
+constexpr SeamOptions kFineSeams{.passes = 1, .length = 0.005};
 
 /// One level of the pyramid: the example, shrunk, in voxels of the level, framed by air on the
 /// sides where the example ends in air.
@@ -312,6 +315,33 @@ Sources plurality(const Level& level, const NearestNeighborField& field, const V
   return sources;
 }
 
+Array3D<float> clamped(Array3D<float> values, float limit) {
+  for (float& v : values.values()) v = std::clamp(v, -limit, limit);
+  return values;
+}
+
+/// Moves seams to where both sides agree best, and then whole pieces and the seams once more: what
+/// a level starts with was found on a grid twice as coarse, and half of the offsets lie between.
+void cutSeams(const Level& level, const Array3D<float>& target, Sources& sources,
+              const Progress& progress) {
+  const Array3D<float> source = clamped(level.source, kSeamTruncation);
+  Origins origins(sources.size());
+  for (std::size_t s = 0; s < sources.count(); ++s) {
+    origins.values()[s] = Origin(sources.values()[s]);
+  }
+  refineSeams(source, clamped(target, kSeamTruncation), origins, kCoarseSeams, progress);
+  if (!progress.cancelled() && alignPieces(source, origins) > 0) {
+    for (std::size_t s = 0; s < sources.count(); ++s) {
+      sources.values()[s] = origins.values()[s].cell();
+    }
+    refineSeams(source, clamped(gather(level, sources), kSeamTruncation), origins, kCoarseSeams,
+                progress);
+  }
+  for (std::size_t s = 0; s < sources.count(); ++s) {
+    sources.values()[s] = origins.values()[s].cell();
+  }
+}
+
 void check(const DistanceField& example, const OptimizeOptions& options) {
   const auto fail = [](const std::string& what) { throw InputError(what); };
   if (volume(example.size()) == 0) fail("the example has no samples");
@@ -407,6 +437,7 @@ SynthesisResult synthesizeOptimized(const DistanceField& example, const Optimize
     }
     if (result.status == SynthesisStatus::Cancelled) break;
     sources = plurality(level, field, size);
+    if (l > 0) cutSeams(level, target, sources, progress);
   }
 
   if (result.status == SynthesisStatus::Cancelled) return result;
@@ -419,14 +450,11 @@ SynthesisResult synthesizeOptimized(const DistanceField& example, const Optimize
     origins[p] = Origin(example.values.clamped(cell));
     wanted[p] = target[p + level.low];
   }
-  Array3D<float> copied(example.size());
-  for (std::size_t s = 0; s < copied.count(); ++s) {
-    copied.values()[s] =
-        std::clamp(example.values.values()[s] / static_cast<float>(example.voxelSize),
-                   -kSeamTruncation, kSeamTruncation);
-  }
-  for (float& v : wanted.values()) v = std::clamp(v, -kSeamTruncation, kSeamTruncation);
-  refineSeams(copied, wanted, origins, {}, progress);
+  Array3D<float> copied = example.values;
+  for (float& v : copied.values()) v /= static_cast<float>(example.voxelSize);
+  copied = clamped(std::move(copied), kSeamTruncation);
+  alignPieces(copied, origins, 1, kFineSeams);
+  refineSeams(copied, clamped(std::move(wanted), kSeamTruncation), origins, kFineSeams, progress);
   if (progress.cancelled()) {
     result.status = SynthesisStatus::Cancelled;
     return result;

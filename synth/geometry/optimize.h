@@ -31,10 +31,11 @@ struct OptimizeOptions {
 /// nearest-neighbour field of overlapping patches with a weighted vote (Kwatra et al., "Texture
 /// optimization for example-based synthesis", SIGGRAPH 2005, doi:10.1145/1073204.1073263; Simakov
 /// et al., "Summarizing visual data using bidirectional similarity", CVPR 2008,
-/// doi:10.1109/CVPR.2008.4587842). The last step copies instead of averaging: each sample takes the
-/// origin on which the patches that cover it agree most, the borders of the copied pieces move to
-/// where both sides agree best (`refineSeams`), what has broken off is cleared away
-/// (`dropBrokenPieces`), and steps across borders are evened out (`evenSeams`).
+/// doi:10.1109/CVPR.2008.4587842). Each level ends with copying instead of averaging: each sample
+/// takes the origin on which the patches that cover it agree most, the borders of the copied pieces
+/// move to where both sides agree best (`refineSeams`; far on the coarse levels, so that few pieces
+/// are left), and the pieces to where they line up (`alignPieces`). At the end what has broken off
+/// is cleared away (`dropBrokenPieces`), and steps across borders are evened out (`evenSeams`).
 ///
 /// So each sample has the sign of the example at its origin; its value is the example's to the bit
 /// away from the borders of copied pieces, and nearly a distance beside them.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/parallel.h"
@@ -191,6 +192,55 @@ void refineSeams(const Array3D<float>& example, const Array3D<float>& target, Or
       waiting = std::move(later);
     }
   }
+}
+
+int alignPieces(const Array3D<float>& example, Origins& origins, int reach,
+                const SeamOptions& options) {
+  // Samples have no say: what they should be near to was made with the pieces where they were.
+  const SeamEnergy energy(example, example, options);
+  struct Face {
+    Vec3i x, y, other;
+  };
+  const int side = 2 * reach + 1, candidates = side * side * side;
+  int moved = 0;
+  std::vector<Face> faces;
+  for (const Piece& piece : findPieces(origins, options)) {
+    faces.clear();
+    Vec3i low = piece.samples.front(), high = low;
+    for (const Vec3i& x : piece.samples) {
+      low = min(low, x);
+      high = max(high, x);
+      for (const Vec3i& step : kSteps) {
+        const Vec3i y = x + step;
+        if (!origins.contains(y)) continue;
+        const Vec3i other = origins[y].cell() - y;
+        if (other != piece.offset) faces.push_back({x, y, other});
+      }
+    }
+    const auto cost = [&](const Vec3i& offset, std::int64_t limit) {
+      std::int64_t sum = 0;
+      for (const Face& face : faces) {
+        sum += energy.face(face.x, offset, face.y, face.other);
+        if (sum >= limit) break;
+      }
+      return sum;
+    };
+    Vec3i best = piece.offset;
+    std::int64_t least = cost(best, std::numeric_limits<std::int64_t>::max());
+    for (int n = 0; n < candidates; ++n) {
+      const Vec3i offset = piece.offset + Vec3i{n % side, n / side % side, n / side / side} -
+                           Vec3i{reach, reach, reach};
+      if (!energy.possible(low, offset) || !energy.possible(high, offset)) continue;
+      const std::int64_t sum = cost(offset, least);
+      if (sum >= least) continue;
+      least = sum;
+      best = offset;
+    }
+    if (best == piece.offset) continue;
+    ++moved;
+    for (const Vec3i& x : piece.samples) origins[x] = Origin(x + best);
+  }
+  return moved;
 }
 
 std::int64_t seamCost(const Array3D<float>& example, const Array3D<float>& target,

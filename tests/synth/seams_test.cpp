@@ -135,6 +135,48 @@ TEST(RefineSeams, FindsTheWayThroughAir) {
   EXPECT_EQ(origins(23, 7, 7), Origin({23, 7, 7}));
 }
 
+/// Two halves of a field that repeats after 9 samples, the right one `off` samples out of step.
+Puzzle outOfStep(const Vec3i& off) {
+  Puzzle p;
+  p.example = waves({40, 40, 40}, 9).values;
+  p.origins = Origins({24, 16, 16});
+  for (std::size_t s = 0; s < p.origins.count(); ++s) {
+    const Vec3i x = p.origins.ijk(s);
+    p.origins[x] = Origin(x.x < 14 ? x + Vec3i{3, 3, 3} : x + Vec3i{12, 3, 3} + off);
+  }
+  p.target = Array3D<float>(p.origins.size());
+  return p;
+}
+
+TEST(AlignPieces, PutsPiecesInStep) {
+  for (const Vec3i& off : {Vec3i{1, 0, 0}, Vec3i{-1, 1, 0}, Vec3i{1, -1, 1}}) {
+    Puzzle p = outOfStep(off);
+    SeamOptions options;
+    options.length = options.fidelity = 0;
+    EXPECT_GT(seamCost(p.example, p.target, p.origins, options), 1000000);
+    EXPECT_EQ(alignPieces(p.example, p.origins, 1, options), 1);
+    EXPECT_EQ(seamCost(p.example, p.target, p.origins, options), 0);
+    for (const Origin& origin : p.origins.values()) ASSERT_TRUE(p.example.contains(origin.cell()));
+    EXPECT_EQ(alignPieces(p.example, p.origins, 1, options), 0);
+  }
+  // Farther out than both may move.
+  Puzzle p = outOfStep({4, 4, 4});
+  alignPieces(p.example, p.origins, 1);
+  EXPECT_GT(seamCost(p.example, p.target, p.origins, {.fidelity = 0, .length = 0}), 0);
+}
+
+TEST(AlignPieces, NeverRaisesTheCostOfFaces) {
+  SeamOptions options;
+  options.fidelity = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Puzzle p = puzzle(seed);
+    const std::int64_t before = seamCost(p.example, p.target, p.origins, options);
+    EXPECT_GT(alignPieces(p.example, p.origins, 1, options), 0);
+    EXPECT_LT(seamCost(p.example, p.target, p.origins, options), before);
+    for (const Origin& origin : p.origins.values()) ASSERT_TRUE(p.example.contains(origin.cell()));
+  }
+}
+
 TEST(RefineSeams, SameBytesAtAnyNumberOfThreads) {
   const Puzzle p = puzzle(7, {40, 40, 30});
   Origins one = p.origins, eight = p.origins;
