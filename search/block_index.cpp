@@ -62,7 +62,7 @@ struct NearestBlocks {
   }
 };
 
-// Work in units of about a nanosecond; when the search has cost a quarter of a linear scan, the
+// Work in units of about a nanosecond; when the search has cost an eighth of a linear scan, the
 // scan takes over.
 struct Work {
   static constexpr std::int64_t kNode = 80, kLeaf = 80, kBox = 200, kFine = 800;
@@ -96,7 +96,7 @@ class BlockIndexSearch {
     }
     if (index.fineFeatures) describeFine(query);
     known_ = sumStore_[0].known();
-    budget_ = index.positionCount * Work::scanned(known_) / 4;
+    budget_ = index.positionCount * Work::scanned(known_) / 8;
   }
 
   // The features of the eighths of each cell that says anything.
