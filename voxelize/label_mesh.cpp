@@ -33,7 +33,8 @@ class Mesher {
     }
     // Every corner of a rectangle is a vertex; rectangles along whose rims it lies take it in.
     for (const Rectangle& r : rectangles_) {
-      for (const auto& [u, v] : {std::pair{r.u0, r.v0}, {r.u1, r.v0}, {r.u1, r.v1}, {r.u0, r.v1}}) {
+      for (const auto& [u, v] : {std::pair{r.u0, r.v0}, std::pair{r.u1, r.v0},
+                                 std::pair{r.u1, r.v1}, std::pair{r.u0, r.v1}}) {
         vertices_.try_emplace(keyAt(r, u, v), kUnset);
       }
     }

@@ -17,6 +17,7 @@
 #include "sdf/triangle_soup.h"
 #include "sdf/triangle_tree.h"
 #include "voxelize/cell_cut.h"
+#include "voxelize/material_color.h"
 
 namespace exemplar {
 namespace {
@@ -88,6 +89,9 @@ LabelGrid gridOver(const Box3d& box, const Vec3d& cellSize, int air, double slac
     }
     size[axis] = static_cast<int>(cells);
     grid.origin[axis] = box.min[axis] - (axis == 2 ? 0 : air) * cellSize[axis];
+  }
+  if (volume(size) > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError("the grid would have more than 4,294,967,295 cells; use larger cells");
   }
   grid.cellSize = cellSize;
   requireMemory(16.0 * static_cast<double>(volume(size)), "the grid of cells", "use larger cells");
@@ -190,6 +194,7 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
 
   // Labels for the materials that are there, in their order.
   const std::size_t materials = mesh.hasMaterials() ? mesh.materials.size() : 1;
+  const std::vector<std::array<float, 4>> colors = materialColors(mesh);
   std::vector<Label> labelOf(materials, 0);
   std::vector<bool> used(materials, false);
   for (const std::uint32_t m : material) {
@@ -203,8 +208,7 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
     look.name = "solid";
     if (mesh.hasMaterials()) {
       look.name = mesh.materials[m].name;
-      look.color = mesh.materials[m].baseColor;
-      for (float& c : look.color) c = std::clamp(c, 0.0f, 1.0f);
+      look.color = colors[m];
       // Glass is not air.
       look.color[3] = std::max(look.color[3], 1.0f / 255);
     }

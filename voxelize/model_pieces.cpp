@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "voxelize/cell_cut.h"
+#include "voxelize/material_color.h"
 #include "voxelize/mesh_to_labels.h"
 #include "voxelize/piece_shape.h"
 
@@ -19,12 +20,11 @@ namespace {
 /// The looks of labels, gathered from the materials of what they show.
 class LookMixer {
  public:
-  void add(const TriangleMesh& mesh, std::uint32_t triangle, const Vec3d& weights, double area) {
-    static const Material plain;
-    const Material& material =
-        mesh.hasMaterials() ? mesh.materials[mesh.triangleMaterials[triangle]] : plain;
+  void add(const TriangleMesh& mesh, const std::vector<std::array<float, 4>>& colors,
+           std::uint32_t triangle, const Vec3d& weights, double area) {
+    const std::size_t number = mesh.hasMaterials() ? mesh.triangleMaterials[triangle] : 0;
     std::array<double, 4> color;
-    for (int c = 0; c < 4; ++c) color[c] = material.baseColor[c];
+    for (int c = 0; c < 4; ++c) color[c] = colors[number][c];
     if (mesh.hasColors()) {
       for (int c = 0; c < 4; ++c) {
         double mixed = 0;
@@ -36,8 +36,7 @@ class LookMixer {
     }
     for (int c = 0; c < 4; ++c) sum_[c] += color[c] * area;
     area_ += area;
-    double& most = areas_[material.name];
-    most += area;
+    areas_[mesh.hasMaterials() ? mesh.materials[number].name : ""] += area;
   }
 
   LabelLook look(const std::string& kind, std::size_t number) const {
@@ -132,6 +131,7 @@ class PieceFinder {
     TriangleMesh& out = result_.mesh;
     out.materials = mesh_.materials;
     out.textures = mesh_.textures;
+    const std::vector<std::array<float, 4>> colors = materialColors(mesh_);
     result_.first = {0, 0};
     for (std::size_t label = 1; label < shapes_.size(); ++label) {
       const std::size_t cell = cellOf_[label];
@@ -140,7 +140,7 @@ class PieceFinder {
       std::map<std::array<double, 3>, std::uint32_t> points;
       for (std::uint32_t n = cut_.first[cell]; n < cut_.first[cell + 1]; ++n) {
         const CutPolygon& part = cut_.polygons[n];
-        mixer.add(mesh_, part.triangle, cut_.points[part.first].weights,
+        mixer.add(mesh_, colors, part.triangle, cut_.points[part.first].weights,
                   length(areaNormal(cut_, part)));
         std::vector<std::uint32_t> vertices;
         for (std::uint32_t i = 0; i < part.count; ++i) {

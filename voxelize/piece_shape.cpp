@@ -14,6 +14,9 @@ constexpr float kAttributeTolerance = 1.0f / 500;
 /// Shapes are made of parts that agree more closely than shapes need to: what is one plane or line
 /// in a shape is then one in a shape that equals it.
 constexpr double kWithin = 0.25;
+/// A cell of more parts is compared part by part: looking for those in one plane would take longer
+/// than is gained.
+constexpr std::size_t kMostMerged = 4000;
 
 double distanceToLine(const Vec3d& p, const Vec3d& on, const Vec3d& along) {
   return length(cross(p - on, along));
@@ -78,7 +81,9 @@ PieceShape::PieceShape(const TriangleMesh& mesh, const CellCut& cut, std::size_t
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Plane> planes;
-  for (const auto& [area, part] : parts) {
+  for (const auto& entry : parts) {
+    const double area = entry.first;
+    const CutPolygon* part = entry.second;
     const CutPoint* points = &cut.points[part->first];
     const Vec3d normal = areaNormal(cut, *part) / area;
     const std::uint32_t material = mesh.hasMaterials() ? mesh.triangleMaterials[part->triangle] : 0;
@@ -91,7 +96,8 @@ PieceShape::PieceShape(const TriangleMesh& mesh, const CellCut& cut, std::size_t
       }
       return true;
     };
-    auto plane = std::find_if(planes.begin(), planes.end(), fits);
+    auto plane = parts.size() > kMostMerged ? planes.end()
+                                            : std::find_if(planes.begin(), planes.end(), fits);
     if (plane == planes.end()) {
       plane = planes.insert(planes.end(), Plane{});
       plane->material = material;

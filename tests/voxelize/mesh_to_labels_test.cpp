@@ -6,10 +6,13 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <filesystem>
 #include <limits>
 #include <numbers>
 
 #include "core/error.h"
+#include "core/file.h"
+#include "mesh/image.h"
 #include "mesh/primitives.h"
 #include "voxelize/cell_cut.h"
 
@@ -111,6 +114,21 @@ TEST(MeshToLabels, EachMaterialIsALabel) {
   for (std::size_t n = 0; n < grid.cells.count(); ++n) {
     EXPECT_EQ(grid.cells.values()[n], grid.cells.ijk(n).x < 2 ? 1 : 2);
   }
+}
+
+TEST(MeshToLabels, ATexturedMaterialsLabelHasItsMeanColour) {
+  const auto path = std::filesystem::temp_directory_path() / "exemplar_mean_colour_test.png";
+  writePng(path, Image8{2, 1, 3, {255, 0, 0, 0, 0, 0}});
+  TriangleMesh mesh = painted(makeBox({{0, 0, 0}, {1, 1, 1}}), "wall", 1.0f);
+  mesh.materials[0].baseColor = {1, 1, 1, 1};
+  mesh.materials[0].baseColorTexture = 0;
+  mesh.textures.push_back({"t.png", "image/png", readFile(path)});
+  std::filesystem::remove(path);
+  const auto mean = meshToLabels(mesh, {.cellSize = {1, 1, 1}}).labels[1].color;
+  EXPECT_NEAR(mean[0], 0.5, 1e-6);
+  EXPECT_NEAR(mean[1], 0, 1e-6);
+  mesh.textures[0].bytes = "no picture";
+  EXPECT_EQ(meshToLabels(mesh, {.cellSize = {1, 1, 1}}).labels[1].color[1], 1);
 }
 
 TEST(MeshToLabels, AnOpenMeshIsSolidAllTheSame) {
