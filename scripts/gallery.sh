@@ -8,9 +8,12 @@ exemplar=${EXEMPLAR:-build/release/apps/exemplar}
 [ -x "$exemplar" ] || scripts/build.sh exemplar
 mkdir -p out/gallery docs/gallery
 scenes=("$@")
-[ ${#scenes[@]} -gt 0 ] || scenes=(chainmail terrain grass metal grid balls fibers)
+[ ${#scenes[@]} -gt 0 ] || scenes=(chainmail terrain grass metal grid balls fibers
+  castle city canyon cluster paths gears forest library)
 for scene in "${scenes[@]}"; do
   echo "== $scene"
-  "$exemplar" synth "scenes/$scene.toml" -o "out/gallery/$scene.glb" --stats "out/gallery/$scene.json" --method "${METHOD:-optimize}"
+  method=(--method "${METHOD:-optimize}")
+  case $scene in castle | city | canyon | cluster | paths | gears | forest | library) method=() ;; esac # model synthesis
+  "$exemplar" synth "scenes/$scene.toml" -o "out/gallery/$scene.glb" --stats "out/gallery/$scene.json" "${method[@]}"
   "$exemplar" render "scenes/$scene.toml" "out/gallery/$scene.glb" -o "docs/gallery/$scene.png" --size 640x480 --samples 48
 done

@@ -1,6 +1,8 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/procedural/piece_kit.h"
@@ -11,25 +13,25 @@ namespace {
 
 /// Heights at the corners of cells: the river's bed is 0, the plateau 4.
 const Plan kHeights({
-    "444444444444444444444",  //
-    "444444444444444444444",  //
-    "444433333444444444444",  //
-    "444332223344433344444",  //
-    "443321112333322233444",  //
-    "443210011222211123344",  //
-    "443210001111111012344",  //
-    "443321000001110012344",  //
-    "444332111000000112344",  //
-    "444433322110001223344",  //
-    "444433222110012233444",  //
-    "444332111000112332444",  //
-    "443321000011123322444",  //
-    "443210001112233344444",  //
-    "443211011223334444444",  //
-    "443322222334444444444",  //
-    "444333333444444444444",  //
-    "444444444444444444444",  //
-    "444444444444444444444",  //
+    "44444444444444444444444",  //
+    "44444444444444444444444",  //
+    "44444333334444444444444",  //
+    "44443322233444333444444",  //
+    "44433211123333222334444",  //
+    "44432100112222111233444",  //
+    "44432100011111110123444",  //
+    "44433210000011100123444",  //
+    "44443321110000001123444",  //
+    "44444333221100012233444",  //
+    "44444332221100122334444",  //
+    "44443321110001123324444",  //
+    "44433210000111233224444",  //
+    "44432100011122333444444",  //
+    "44432110112233344444444",  //
+    "44433222223344444444444",  //
+    "44443333334444444444444",  //
+    "44444444444444444444444",  //
+    "44444444444444444444444",  //
 });
 constexpr int kFine = 4;  ///< parts of a cell's side
 constexpr int kPlateau = 4;
@@ -106,19 +108,23 @@ class Canyon {
   /// The sides and the bottom, where the scene ends.
   void walls(int x, int y) {
     const std::array<bool, 4> ends{x + 1 == width(), y + 1 == depth(), x == 0, y == 0};
-    const double top = 1 + kPlateau;
-    if (ends[0])
-      kit_.face(std::array{Vec3d{1, 0, 0.5}, Vec3d{1, 1, 0.5}, Vec3d{1, 1, top}, Vec3d{1, 0, top}},
-                dark_);
-    if (ends[1])
-      kit_.face(std::array{Vec3d{1, 1, 0.5}, Vec3d{0, 1, 0.5}, Vec3d{0, 1, top}, Vec3d{1, 1, top}},
-                dark_);
-    if (ends[2])
-      kit_.face(std::array{Vec3d{0, 1, 0.5}, Vec3d{0, 0, 0.5}, Vec3d{0, 0, top}, Vec3d{0, 1, top}},
-                dark_);
-    if (ends[3])
-      kit_.face(std::array{Vec3d{0, 0, 0.5}, Vec3d{1, 0, 0.5}, Vec3d{1, 0, top}, Vec3d{0, 0, top}},
-                dark_);
+    // A layer of rock is of one colour wherever the scene ends: layers follow in their order.
+    for (int layer = 0; layer <= kPlateau; ++layer) {
+      const double a = std::max(0.5, 1.0 * layer), b = layer + 1;
+      const std::uint32_t rock = strata_[layer];
+      if (ends[0]) {
+        kit_.face(std::array{Vec3d{1, 0, a}, Vec3d{1, 1, a}, Vec3d{1, 1, b}, Vec3d{1, 0, b}}, rock);
+      }
+      if (ends[1]) {
+        kit_.face(std::array{Vec3d{1, 1, a}, Vec3d{0, 1, a}, Vec3d{0, 1, b}, Vec3d{1, 1, b}}, rock);
+      }
+      if (ends[2]) {
+        kit_.face(std::array{Vec3d{0, 1, a}, Vec3d{0, 0, a}, Vec3d{0, 0, b}, Vec3d{0, 1, b}}, rock);
+      }
+      if (ends[3]) {
+        kit_.face(std::array{Vec3d{0, 0, a}, Vec3d{1, 0, a}, Vec3d{1, 0, b}, Vec3d{0, 0, b}}, rock);
+      }
+    }
     kit_.face(std::array{Vec3d{0, 0, 0.5}, Vec3d{0, 1, 0.5}, Vec3d{1, 1, 0.5}, Vec3d{1, 0, 0.5}},
               dark_);
   }
@@ -192,6 +198,11 @@ class Canyon {
                 cactus_ = kit_.material("cactus", {0.1f, 0.26f, 0.1f}),
                 wood_ = kit_.material("planks", {0.32f, 0.19f, 0.09f}),
                 rope_ = kit_.material("rope", {0.5f, 0.4f, 0.24f});
+  std::array<std::uint32_t, kPlateau + 1> strata_{kit_.material("stratum 1", {0.3f, 0.14f, 0.09f}),
+                                                  kit_.material("stratum 2", {0.42f, 0.18f, 0.09f}),
+                                                  kit_.material("stratum 3", {0.52f, 0.27f, 0.14f}),
+                                                  kit_.material("stratum 4", {0.46f, 0.2f, 0.1f}),
+                                                  kit_.material("stratum 5", {0.6f, 0.36f, 0.2f})};
 };
 
 }  // namespace

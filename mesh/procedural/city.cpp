@@ -40,7 +40,7 @@ class City {
     kit_.ground(
         0.7,
         [&](int x, int y) {
-          return isRoad(x, y) ? asphalt_ : kPlan(x, y) == 'p' ? lawn_ : pavement_;
+          return isRoad(x, y) ? asphalt_ : kPlan(x, y) == 'p' ? lawn_ : foundation(kPlan(x, y));
         },
         concrete_);
     kPlan.each([&](int x, int y, char c) {
@@ -66,9 +66,27 @@ class City {
  private:
   static bool isRoad(int x, int y) { return kRoads.find(kPlan(x, y)) != std::string::npos; }
 
+  /// Each kind of building stands on ground of its own.
+  std::uint32_t foundation(char c) const {
+    return c == 'A'   ? basalt_
+           : c == 'B' ? brick_
+           : c == 'C' ? plaster_
+           : c == 'D' ? stone_
+                      : pavement_;
+  }
+
   void road(int x, int y, char c) {
     const unsigned sides = kPlan.sides(x, y, kRoads);
     const bool along = sides == (kEast | kWest), across = sides == (kNorth | kSouth);
+    // A kerb on each side without a road, and at corners between roads.
+    for (int turn = 0; turn < 4; ++turn) {
+      const unsigned turned = turnedSides(sides, -turn);
+      kit_.at(cell_, turn);
+      if (!(turned & kEast)) kit_.box({0.95, 0, 1}, {1, 1, 1.05}, concrete_);
+      if ((turned & kEast) && (turned & kNorth)) {
+        kit_.box({0.95, 0.95, 1}, {1, 1, 1.05}, concrete_);
+      }
+    }
     if (along || across) {
       kit_.at(cell_, along ? 0 : 1);
       kit_.box({0.3, 0.48, 1}, {0.7, 0.52, 1.01}, paint_);
@@ -234,6 +252,7 @@ class City {
   std::uint32_t asphalt_ = kit_.material("asphalt", {0.02f, 0.02f, 0.025f}),
                 pavement_ = kit_.material("pavement", {0.1f, 0.1f, 0.11f}),
                 concrete_ = kit_.material("concrete", {0.16f, 0.16f, 0.17f}),
+                basalt_ = kit_.material("basalt", {0.05f, 0.05f, 0.06f}),
                 lawn_ = kit_.material("lawn", {0.02f, 0.06f, 0.025f}),
                 paint_ = kit_.material("road paint", {0.5f, 0.5f, 0.48f}),
                 glass_ = kit_.material("glass", {0.02f, 0.035f, 0.06f}, 0.15f),

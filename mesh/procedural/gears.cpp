@@ -56,7 +56,7 @@ class Gears {
  public:
   ProcessSample make() {
     kit_.ground(
-        0.6, [&](int x, int y) { return (x + y) % 2 ? plate_ : darkPlate_; }, iron_);
+        0.6, [&](int, int) { return plate_; }, iron_);
     for (const Row& row : kRows) {
       for (const auto& wheel : row.wheels) addWheel(row, wheel[0], wheel[1]);
       for (const auto& belt : row.belts) addBelt(row.y, belt[0], belt[1], belt[2]);
@@ -211,7 +211,6 @@ class Gears {
 
   PieceKit kit_{{18, 13, 9}};
   std::uint32_t plate_ = kit_.material("plate", {0.34f, 0.35f, 0.37f}, 0.6f),
-                darkPlate_ = kit_.material("plate, darker", {0.25f, 0.26f, 0.28f}, 0.6f),
                 iron_ = kit_.material("iron", {0.13f, 0.13f, 0.15f}, 0.5f),
                 steel_ = kit_.material("steel", {0.5f, 0.52f, 0.55f}, 0.4f, 0.6f),
                 brass_ = kit_.material("brass", {0.62f, 0.42f, 0.14f}, 0.4f, 0.6f),

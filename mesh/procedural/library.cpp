@@ -37,7 +37,13 @@ class Library {
  public:
   ProcessSample make() {
     kit_.ground(
-        0.6, [&](int x, int y) { return kPlan(x, y) == '.' ? lawn_ : floor(x, y); }, earth_);
+        0.6,
+        [&](int x, int y) {
+          // Walls stand on stone: indoors and outdoors meet nowhere else.
+          const bool wall = kWalls.find(kPlan(x, y)) != std::string::npos;
+          return kPlan(x, y) == '.' ? lawn_ : wall ? stone_ : parquet_;
+        },
+        earth_);
     kPlan.each([&](int x, int y, char c) {
       cell_ = {x, y, 0};
       kit_.at(cell_);
@@ -57,8 +63,6 @@ class Library {
   }
 
  private:
-  std::uint32_t floor(int x, int y) const { return (x + y) % 2 ? parquet_ : parquet2_; }
-
   void wall(unsigned sides) {
     kit_.beams(sides, 0.15, 1, kWallTop, brick_);
     kit_.beams(sides, 0.19, kWallTop, kWallTop + 0.12, stone_);
@@ -212,7 +216,6 @@ class Library {
   std::uint32_t lawn_ = kit_.material("lawn", {0.13f, 0.26f, 0.07f}),
                 earth_ = kit_.material("earth", {0.2f, 0.12f, 0.07f}),
                 parquet_ = kit_.material("parquet", {0.4f, 0.25f, 0.12f}, 0.5f),
-                parquet2_ = kit_.material("parquet, darker", {0.34f, 0.2f, 0.09f}, 0.5f),
                 brick_ = kit_.material("brick", {0.45f, 0.2f, 0.13f}),
                 stone_ = kit_.material("stone", {0.66f, 0.62f, 0.54f}),
                 glass_ = kit_.material("glass", {0.35f, 0.5f, 0.58f}, 0.1f),
