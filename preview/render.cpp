@@ -321,7 +321,6 @@ class Photographer {
   std::array<Vec3f, kLanes> incoming(const Rays& rays, const Lanes& live, Lanes* missed,
                                      const PixelSampler& sampler, int firstPath) const;
 
-  const TriangleMesh& mesh_;
   RenderOptions options_;
   Scale scale_;
   Tracer tracer_;
@@ -354,8 +353,7 @@ Vec3f backgroundLight() {
 }
 
 Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& options)
-    : mesh_(mesh),
-      options_(options),
+    : options_(options),
       scale_(scaleOf(boundingBox(mesh), options.view.elevation < 0)),
       tracer_(mesh, scale_),
       normals_(cornerNormals(mesh, options.creaseAngle)),

@@ -65,8 +65,8 @@ EXEMPLAR_MULTIVERSION void addTriangle(const Corners& triangle, int n, const dou
     const double r = real[l] * fr - imaginary[l] * fi;
     const double i = real[l] * fi + imaginary[l] * fr;
     // Both angles on one side of 0 and the product on the other: the sum went past half a turn.
-    const double up = (imaginary[l] >= 0) & (fi > 0) & (i < 0) ? 1.0 : 0.0;
-    const double down = (imaginary[l] < 0) & (fi < 0) & (i >= 0) ? 1.0 : 0.0;
+    const double up = ((imaginary[l] >= 0) & (fi > 0) & (i < 0)) ? 1.0 : 0.0;
+    const double down = ((imaginary[l] < 0) & (fi < 0) & (i >= 0)) ? 1.0 : 0.0;
     turns[l] += up - down;
     const double size = 1 / (std::abs(r) + std::abs(i));
     real[l] = r * size;

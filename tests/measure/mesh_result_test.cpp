@@ -101,8 +101,8 @@ TEST(MeshResult, IsAsLargeAsTheExamplesBorderSays) {
   };
   EXPECT_EQ(sampled({{20, 20, 8.5}}), example.size());
   EXPECT_EQ(sampled({{12, 12, 8.5}}), example.size());
-  EXPECT_EQ(sampled({{12, 12, 8.5}, {60, 20, 29.5}}), Vec3i(80, 40, 42));
-  EXPECT_EQ(sampled({{12, 12, 8.5}}, {.size = Vec3i{30, 35, 17}}), Vec3i(30, 35, 17));
+  EXPECT_EQ(sampled({{12, 12, 8.5}, {60, 20, 29.5}}), (Vec3i{80, 40, 42}));
+  EXPECT_EQ(sampled({{12, 12, 8.5}}, {.size = Vec3i{30, 35, 17}}), (Vec3i{30, 35, 17}));
 }
 
 TEST(MeshResult, ThatIsPlacedElsewhereIsSampledOnTheSameGrid) {
@@ -111,7 +111,7 @@ TEST(MeshResult, ThatIsPlacedElsewhereIsSampledOnTheSameGrid) {
   const DistanceField field = sampleMeshResult(makeSphere(centre, 7 * kVoxel, 30), example);
   const Vec3d step = (field.origin - example.origin) / kVoxel;
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(step[axis], std::round(step[axis]), 1e-6);
-  EXPECT_EQ(field.size(), Vec3i(15, 15, 15));
+  EXPECT_EQ(field.size(), (Vec3i{15, 15, 15}));
   EXPECT_LT(field.values(7, 7, 7), -5 * kVoxel);
 }
 

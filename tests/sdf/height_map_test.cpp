@@ -216,7 +216,9 @@ TEST(HeightMapFile, EveryPrefixIsReadOrRefused) {
       "-9999 7 8\n9 10 11 12\n";
   const std::pair<const char*, std::string> files[] = {
       {"a.pgm", wholePgm(6, 5, true)}, {"a.asc", asc}, {"a.png", readFile(folder / "a.png")}};
-  for (const auto& [name, whole] : files) {
+  for (const auto& file : files) {
+    const auto& name = file.first;  // no binding: lambdas of clang 14 capture none
+    const auto& whole = file.second;
     EXPECT_EQ(inputError([&] { readBytes(name, whole); }), "");
     for (std::size_t n = 0; n < whole.size(); ++n) {
       // The last digits of a text may be missing without anyone being able to tell.
