@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "core/error.h"
@@ -217,6 +218,11 @@ const std::map<std::string, ProcessSample (*)()>& pieceKinds() {
 std::vector<fs::path> sceneFolders() {
   std::vector<fs::path> folders;
   if (const char* own = std::getenv("EXEMPLAR_SCENES")) folders.emplace_back(own);
+  // Where an installed command finds its own, wherever it was moved to.
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  if (!program.empty())
+    folders.push_back(program.parent_path().parent_path() / "share/exemplar/scenes");
   folders.emplace_back(EXEMPLAR_SOURCE_SCENES);
   folders.emplace_back(EXEMPLAR_INSTALLED_SCENES);
   return folders;
