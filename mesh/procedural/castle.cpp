@@ -164,8 +164,14 @@ class Castle {
     for (int i = 0; i < width; ++i) {
       for (const double wall : {0.07, depth - 0.1}) {
         for (const double z : {1.5, 2.4}) {
+          // One door: a keep of any length would need another.
+          if (z < 2 && wall < 1 && 2 * i == width) continue;
           kit_.box({i + 0.35, wall, z}, {i + 0.65, wall + 0.03, z + 0.5}, dark_);
         }
+      }
+      if (2 * i == width) {
+        kit_.box({i + 0.3, 0.06, 1}, {i + 0.7, 0.1, 2}, wood_);
+        kit_.box({i + 0.25, 0.04, 2}, {i + 0.75, 0.1, 2.1}, trim_);
       }
       // Timber between the windows.
       for (const double wall : {0.08, depth - 0.1}) {

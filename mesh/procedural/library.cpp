@@ -81,8 +81,8 @@ class Library {
     kit_.at(cell_, along ? 0 : 1);
     kit_.box({0, 0.35, 1}, {1, 0.65, 1.7}, brick_, kMinX | kMaxX);
     kit_.box({0, 0.35, 3.4}, {1, 0.65, kWallTop}, brick_, kMinX | kMaxX);
-    kit_.box({0, 0.35, 1.7}, {0.18, 0.65, 3.4}, brick_, kMinX | kMinZ | kMaxZ);
-    kit_.box({0.82, 0.35, 1.7}, {1, 0.65, 3.4}, brick_, kMaxX | kMinZ | kMaxZ);
+    kit_.box({0, 0.35, 1.7}, {0.18, 0.65, 3.4}, brick_, kMinX);
+    kit_.box({0.82, 0.35, 1.7}, {1, 0.65, 3.4}, brick_, kMaxX);
     kit_.box({0.18, 0.47, 1.7}, {0.82, 0.53, 3.4}, glass_);
     kit_.box({0.47, 0.45, 1.7}, {0.53, 0.55, 3.4}, stone_);
     kit_.box({0.18, 0.45, 2.6}, {0.82, 0.55, 2.66}, stone_);
@@ -96,7 +96,7 @@ class Library {
     kit_.at(cell_, along ? 0 : 1);
     kit_.box({0, 0.35, 1}, {0.15, 0.65, kWallTop}, brick_, kMinX);
     kit_.box({0.85, 0.35, 1}, {1, 0.65, kWallTop}, brick_, kMaxX);
-    kit_.box({0.15, 0.35, 2.6}, {0.85, 0.65, kWallTop}, brick_, kMinX | kMaxX);
+    kit_.box({0.15, 0.35, 2.6}, {0.85, 0.65, kWallTop}, brick_);
     for (const double x : {0.15, 0.79}) kit_.box({x, 0.33, 1}, {x + 0.06, 0.67, 2.6}, wood_);
     // A leaf that stands open.
     kit_.box({0.16, 0.67, 1.02}, {0.21, 0.98, 2.5}, wood_);
@@ -146,7 +146,7 @@ class Library {
       const unsigned turned = turnedSides(rooms & ~stairs, -turn);
       if (!(turned & kEast)) continue;
       kit_.at(cell_, turn);
-      kit_.box({0.93, 0, kGallery + 0.4}, {0.97, 1, kGallery + 0.45}, brass_, kMinY | kMaxY);
+      kit_.box({0.93, 0, kGallery + 0.4}, {0.97, 1, kGallery + 0.45}, brass_);
       for (const double post : {0.23, 0.73}) {
         kit_.box({0.94, post, kGallery}, {0.96, post + 0.04, kGallery + 0.4}, brass_);
       }

@@ -117,14 +117,25 @@ class Paths {
 
   void place(const Vec3i& c, const PathCell& cell) {
     if (cell.rises >= 0) return stairs(c, cell.rises);
+    // Towards stairs a slab ends; towards a slab it goes on.
+    unsigned ends = 0;
+    for (int n = 0; n < 4; ++n) {
+      const auto next = cells_.find(key(c + kSteps[n]));
+      const bool goesOn = next != cells_.end() && next->second.rises < 0 &&
+                          (next->second.sides >> ((n + 2) & 3) & 1);
+      if (!goesOn) ends |= 1u << n;
+    }
     kit_.at(c);
-    kit_.beams(cell.sides, 0.3, 0.82, 1, stone_);
+    kit_.beams(cell.sides, 0.3, 0.82, 1, stone_, ends);
     for (int turn = 0; turn < 4; ++turn) {
       kit_.at(c, turn);
       const unsigned turned = turnedSides(cell.sides, -turn);
       if (turned & kEast) {
         // Low walls along the path.
-        for (const double y : {0.2, 0.74}) kit_.box({0.8, y, 1}, {1, y + 0.06, 1.14}, pale_, kMaxX);
+        for (const double y : {0.2, 0.74}) {
+          kit_.box({0.8, y, 1}, {1, y + 0.06, 1.14}, pale_,
+                   turnedSides(ends, -turn) & kEast ? 0u : kMaxX);
+        }
       } else {
         kit_.box({0.74, 0.2, 1}, {0.8, 0.8, 1.14}, pale_);
       }

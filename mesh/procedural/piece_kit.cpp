@@ -165,22 +165,22 @@ void PieceKit::ball(const Vec3d& center, const Vec3d& radii, std::uint32_t mater
   }
 }
 
-void PieceKit::beams(unsigned sides, double half, double z0, double z1, std::uint32_t material) {
+void PieceKit::beams(unsigned sides, double half, double z0, double z1, std::uint32_t material,
+                     unsigned closed) {
   const double low = 0.5 - half, high = 0.5 + half;
+  const unsigned open = sides & ~closed;
+  const unsigned ends = (open & kEast ? kMaxX : 0u) | (open & kNorth ? kMaxY : 0u) |
+                        (open & kWest ? kMinX : 0u) | (open & kSouth ? kMinY : 0u);
   // Opposite sides without others make one beam; else arms meet a middle of their own width.
-  if (sides == (kEast | kWest)) {
-    return box({0, low, z0}, {1, high, z1}, material, kMinX | kMaxX);
-  }
-  if (sides == (kNorth | kSouth)) {
-    return box({low, 0, z0}, {high, 1, z1}, material, kMinY | kMaxY);
-  }
+  if (sides == (kEast | kWest)) return box({0, low, z0}, {1, high, z1}, material, ends);
+  if (sides == (kNorth | kSouth)) return box({low, 0, z0}, {high, 1, z1}, material, ends);
   box({low, low, z0}, {high, high, z1}, material,
       (sides & kEast ? kMaxX : 0u) | (sides & kNorth ? kMaxY : 0u) | (sides & kWest ? kMinX : 0u) |
           (sides & kSouth ? kMinY : 0u));
-  if (sides & kEast) box({high, low, z0}, {1, high, z1}, material, kMinX | kMaxX);
-  if (sides & kWest) box({0, low, z0}, {low, high, z1}, material, kMinX | kMaxX);
-  if (sides & kNorth) box({low, high, z0}, {high, 1, z1}, material, kMinY | kMaxY);
-  if (sides & kSouth) box({low, 0, z0}, {high, low, z1}, material, kMinY | kMaxY);
+  if (sides & kEast) box({high, low, z0}, {1, high, z1}, material, kMinX | (ends & kMaxX));
+  if (sides & kWest) box({0, low, z0}, {low, high, z1}, material, kMaxX | (ends & kMinX));
+  if (sides & kNorth) box({low, high, z0}, {high, 1, z1}, material, kMinY | (ends & kMaxY));
+  if (sides & kSouth) box({low, 0, z0}, {high, low, z1}, material, kMaxY | (ends & kMinY));
 }
 
 void PieceKit::ground(double bottom, const std::function<std::uint32_t(int, int)>& top,

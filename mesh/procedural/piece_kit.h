@@ -60,8 +60,10 @@ class PieceKit {
   void face(std::span<const Vec3d> corners, std::uint32_t material);
 
   /// A beam along the cell's middle lines to each side in `sides` (`SideBit`s), `half` wide to each
-  /// side of them, from z0 to z1; open towards the neighbours it goes on to.
-  void beams(unsigned sides, double half, double z0, double z1, std::uint32_t material);
+  /// side of them, from z0 to z1; open towards the neighbours it goes on to, but for those in
+  /// `closed`.
+  void beams(unsigned sides, double half, double z0, double z1, std::uint32_t material,
+             unsigned closed = 0);
 
   /// The ground: the lowest layer's cells from z = `bottom` to 1, with the top of each cell of the
   /// material that `top` says, the rest of `side`. Cells whose top is `kNone` have none.

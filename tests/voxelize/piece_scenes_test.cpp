@@ -54,7 +54,7 @@ TEST_P(PieceSceneTest, HasTheLabelsOfItsCounterpartAndIsPutTogetherAgain) {
 INSTANTIATE_TEST_SUITE_P(Kinds, PieceSceneTest,
                          testing::Values(Kind{"castle", 62}, Kind{"city", 120}, Kind{"canyon", 53},
                                          Kind{"cluster", 95}, Kind{"paths", 107}, Kind{"gears", 43},
-                                         Kind{"forest", 40}, Kind{"library", 60}),
+                                         Kind{"forest", 33}, Kind{"library", 71}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
