@@ -132,7 +132,9 @@ LabelExample loadLabelExample(const std::filesystem::path& path, const LabelRead
     example.description = "grid of labels";
   }
   if (example.grid.cells.empty()) return example;  // cancelled
-  if (example.grid.size().z == 1) example.scale.z = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (example.grid.size()[axis] == 1) example.scale[axis] = 1;
+  }
   example.description = readableCells(example.grid.size()) + " of " +
                         withThousands(example.grid.labelCount()) + " labels, " +
                         example.description;

@@ -22,6 +22,7 @@
 #include "mesh/image.h"
 #include "mesh/mesh_file.h"
 #include "synth/model/synthesize.h"
+#include "voxelize/label_file.h"
 
 namespace exemplar {
 namespace {
@@ -146,9 +147,30 @@ void readAxes(const std::string& text, const std::string& option, bool* axes, in
   }
 }
 
-/// A picture's grey, 0..1, at each cell of a layer of the result seen from above.
-Array3D<float> readMap(const std::string& path, const Vec3i& size) {
+/// A map of the result: a picture's grey, 0..1, for each cell of a layer seen from above, or, from
+/// a grid of the result's own size, the number in each cell.
+Array3D<float> readMap(const std::string& path, const Vec3i& size, const std::string& option) {
+  if (lowerExtension(path) != ".png") {
+    const LabelGrid grid = readLabels(path);
+    if (grid.size() != size) {
+      throw InputError(option + ": " + path + " has " + readableCells(grid.size()) +
+                       ", and the result " + readableCells(size));
+    }
+    Array3D<float> map(size);
+    for (std::size_t n = 0; n < map.count(); ++n) {
+      map.values()[n] = static_cast<float>(grid.cells.values()[n]);
+    }
+    return map;
+  }
   const Image16 image = readPng16(path);
+  // The picture may be larger or smaller, but not of another shape: within a pixel or a cell.
+  const double width = static_cast<double>(image.height) * size.x / size.y;
+  if (std::abs(width - image.width) > 1 + width / std::min(size.x, size.y)) {
+    throw InputError(option + ": " + path + " has " + std::to_string(image.width) + " x " +
+                     std::to_string(image.height) + " pixels, and the result " +
+                     std::to_string(size.x) + " x " + std::to_string(size.y) +
+                     " cells seen from above: not of one shape");
+  }
   Array3D<float> map({size.x, size.y, 1});
   const auto sample = [&](int x, int y) {
     const std::uint16_t* p = image.at(x, y);
@@ -213,15 +235,15 @@ ModelOptions modelOptions(const Options& options, const LabelExample& example) {
   }
   for (const std::string& text : options.weightMaps) {
     const auto [labels, path] = keyAndValue(text, "--weight-map", "LABEL,...=PICTURE.png");
-    model.weightMaps.push_back(
-        {parseLabels(labels, grid, "--weight-map " + text), readMap(path, model.size)});
+    model.weightMaps.push_back({parseLabels(labels, grid, "--weight-map " + text),
+                                readMap(path, model.size, "--weight-map")});
   }
   if (!options.mask.empty()) {
-    const Array3D<float> map = readMap(options.mask, model.size);
+    const Array3D<float> map = readMap(options.mask, model.size, "--mask");
     model.mask = Array3D<std::uint8_t>(model.size);
     for (std::size_t n = 0; n < model.mask.count(); ++n) {
       const Vec3i c = model.mask.ijk(n);
-      model.mask.values()[n] = map(c.x, c.y, 0) >= 0.5f;
+      model.mask.values()[n] = map(c.x, c.y, std::min(c.z, map.size().z - 1)) >= 0.5f;
     }
   }
   for (const std::string& text : options.counts) {
@@ -410,13 +432,16 @@ void addRequestOptions(CLI::App& command, Options& options) {
   command.add_option("--pin", options.pins,
                      "cells that must have one of some labels: "
                      "X,Y,Z=LABEL,...");
-  command.add_option("--mask", options.mask,
-                     "a .png seen from above: black cells are holes, left empty");
+  command.add_option(
+      "--mask", options.mask,
+      "a .png seen from above: black cells are holes, left empty; or a .txt, .vox or "
+      ".vdb of the result's size, whose cells with 0 are");
   command.add_option("--weight", options.weights,
                      "make labels more or less frequent: LABEL,...=NUMBER (1); 0 forbids them");
   command.add_option("--weight-map", options.weightMaps,
                      "make labels frequent where a picture seen from above is white: "
-                     "LABEL,...=PICTURE.png");
+                     "LABEL,...=PICTURE.png; or as often as the numbers in a .txt, .vox or .vdb of "
+                     "the result's size say");
   command.add_option("--count", options.counts,
                      "how many cells have some labels: LABEL,...=LEAST..MOST");
   command.add_option("--connect", options.connected,

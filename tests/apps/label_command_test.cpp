@@ -138,6 +138,48 @@ TEST_F(LabelCommand, PinsAndWeightsAreKept) {
   EXPECT_EQ(std::count(none.labels.begin(), none.labels.end(), 0), 12 * 12 * 3);
 }
 
+TEST_F(LabelCommand, MapsSayWhereLabelsAre) {
+  // White on the right: rings' corners only there.
+  Image8 half{24, 12, 1, {}};
+  for (int n = 0; n < 24 * 12; ++n) half.pixels.push_back(n % 24 < 12 ? 0 : 255);
+  writePng(folder_ / "half.png", half);
+  ASSERT_EQ(run("synth rings.txt -o out.txt --size 24,12,3 --weight-map corner=half.png -q").status,
+            0);
+  const Grid grid = readGrid(folder_ / "out.txt");
+  int right = 0;
+  for (int i = 0; i < 24; ++i) {
+    for (int j = 0; j < 12; ++j) {
+      if (grid.at(i, j, 0) < 5 || grid.at(i, j, 0) > 8) continue;
+      EXPECT_GE(i, 12);
+      ++right;
+    }
+  }
+  EXPECT_GT(right, 0);
+  // The same picture is no map of a square, nor is a grid of another size one of this result.
+  const CommandResult square =
+      run("synth rings.txt -o s.txt --size 12,12,3 --weight-map corner=half.png");
+  EXPECT_EQ(square.status, 2);
+  EXPECT_THAT(square.err, HasSubstr("not of one shape"));
+  const CommandResult other = run("synth rings.txt -o s.txt --size 12,12,3 --mask rings.txt");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("8 x 8 x 3 cells, and the result 12 x 12 x 3"));
+}
+
+TEST_F(LabelCommand, ExamplesWithNothingToChooseFromGetAnAnswer) {
+  std::ofstream(folder_ / "one.txt") << "a\nb\nc\n1 1 1\n\n1\n";
+  std::ofstream(folder_ / "same.txt") << "a\nb\nc\n2 2 1\n\n1 1\n1 1\n";
+  std::ofstream(folder_ / "all.txt") << "a\nb\nc\n2 2 1\n\n1 2\n3 4\n";
+  const CommandResult one = run("synth one.txt -o o.txt --size 3,3,1");
+  EXPECT_EQ(one.status, 2);
+  EXPECT_THAT(one.err, HasSubstr("one cell thick"));
+  EXPECT_EQ(run("synth all.txt -o o.txt --size 3,3,1").status, 3);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "o.txt"));
+  EXPECT_EQ(run("synth one.txt -o o.txt --size 1,1,1").status, 0);
+  ASSERT_EQ(run("synth same.txt -o s.txt --size 3,3,1").status, 0);
+  const Grid same = readGrid(folder_ / "s.txt");
+  EXPECT_EQ(std::count(same.labels.begin(), same.labels.end(), 1), 9);
+}
+
 TEST_F(LabelCommand, EveryFormatIsWritten) {
   for (const std::string ending : {".vox", ".vdb", ".obj", ".glb", ".ply"}) {
     const CommandResult result =
