@@ -67,12 +67,12 @@ double smallestKept(const DistanceField& example) {
 }
 
 /// The sample of the example that is least outside the solid, the first of several.
-std::optional<Vec3i> nearestAir(const DistanceField& example) {
+std::optional<Vec3i> nearestAir(const DistanceField& example, const Array3D<std::uint8_t>* usable) {
   std::optional<Vec3i> cell;
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t s = 0; s < example.values.count(); ++s) {
     const float v = example.values.values()[s];
-    if (v < 0 || v >= least) continue;
+    if (v < 0 || v >= least || (usable && !usable->values()[s])) continue;
     least = v;
     cell = example.values.ijk(s);
   }
@@ -81,8 +81,10 @@ std::optional<Vec3i> nearestAir(const DistanceField& example) {
 
 }  // namespace
 
-std::int64_t dropBrokenPieces(const DistanceField& example, Origins& origins) {
-  const std::optional<Vec3i> anyAir = nearestAir(example);
+std::int64_t dropBrokenPieces(const DistanceField& example, Origins& origins,
+                              const BrokenPiecesOptions& options) {
+  const auto usable = [&](const Vec3i& cell) { return !options.usable || (*options.usable)[cell]; };
+  const std::optional<Vec3i> anyAir = nearestAir(example, options.usable);
   if (!anyAir) return 0;
   const double kept = smallestKept(example);
   Array3D<std::uint8_t> solid(origins.size()), broken(origins.size());
@@ -92,6 +94,11 @@ std::int64_t dropBrokenPieces(const DistanceField& example, Origins& origins) {
   std::vector<std::size_t> left;
   forEachPiece(std::move(solid), [&](const Piece& piece) {
     if (!piece.whole || static_cast<double>(piece.samples.size()) >= kept) return;
+    if (options.fixed &&
+        std::any_of(piece.samples.begin(), piece.samples.end(),
+                    [&](std::size_t s) { return options.fixed->values()[s] != 0; })) {
+      return;
+    }
     left.insert(left.end(), piece.samples.begin(), piece.samples.end());
   });
   std::sort(left.begin(), left.end());
@@ -116,7 +123,9 @@ std::int64_t dropBrokenPieces(const DistanceField& example, Origins& origins) {
         sum += example.values[there];
         ++count;
         const Vec3i cell = there - step;
-        if (example.values.contains(cell) && example.values[cell] >= 0) cells.push_back(cell);
+        if (example.values.contains(cell) && example.values[cell] >= 0 && usable(cell)) {
+          cells.push_back(cell);
+        }
       }
       if (cells.empty()) {
         later.push_back(s);

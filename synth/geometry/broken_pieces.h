@@ -5,10 +5,18 @@
 
 #include <cstdint>
 
+#include "core/array3d.h"
 #include "core/origin.h"
 #include "sdf/distance_field.h"
 
 namespace exemplar {
+
+struct BrokenPiecesOptions {
+  /// Samples of the example that may be copied, where not 0: of its size, or none for all.
+  const Array3D<std::uint8_t>* usable = nullptr;
+  /// Samples of the result that stay as they are, where not 0: of its size, or none.
+  const Array3D<std::uint8_t>* fixed = nullptr;
+};
 
 /// Clears away what has broken off: pieces of solid (samples below 0 that share faces) inside the
 /// box with fewer than half the samples of the example's smallest whole piece; where the example
@@ -17,6 +25,7 @@ namespace exemplar {
 /// there is none, an origin just outside the example's surface.
 ///
 /// Returns how many samples changed. O(samples). Deterministic.
-std::int64_t dropBrokenPieces(const DistanceField& example, Origins& origins);
+std::int64_t dropBrokenPieces(const DistanceField& example, Origins& origins,
+                              const BrokenPiecesOptions& options = {});
 
 }  // namespace exemplar

@@ -76,13 +76,15 @@ class Relaxation {
 
   /// Gives the values the slopes of their sources, in Jacobi's rounds: all new values from the old
   /// ones.
-  void blend(const DistanceField& example, const Origins& origins, int rounds) {
+  void blend(const DistanceField& example, const Origins& origins,
+             const EvenSeamsOptions& options) {
+    const int rounds = options.blends;
     if (rounds == 0) return;
     std::vector<std::array<float, 6>> rises(where_.size());
     overSamples([&](std::size_t n, std::size_t s) {
       for (int d = 0; d < 6; ++d) {
         const std::size_t t = neighbors_[n][d];
-        rises[n][d] = t == s ? 0 : rise(example, origins, s, t, kSteps[d]);
+        rises[n][d] = t == s ? 0 : rise(example, options.usable, origins, s, t, kSteps[d]);
       }
     });
     for (int round = 0; round < rounds; ++round) {
@@ -130,18 +132,21 @@ class Relaxation {
 
   /// By how much the sources of s and of t, one step on, say that the field rises from s to t, in
   /// voxels.
-  static float rise(const DistanceField& example, const Origins& origins, std::size_t s,
-                    std::size_t t, const Vec3i& step) {
+  static float rise(const DistanceField& example, const Array3D<std::uint8_t>* usable,
+                    const Origins& origins, std::size_t s, std::size_t t, const Vec3i& step) {
     const Vec3i from = origins.values()[s].cell(), to = origins.values()[t].cell();
     const float voxel = static_cast<float>(example.voxelSize);
     if (to - from == step) return (example.values[to] - example.values[from]) / voxel;
+    const auto known = [&](const Vec3i& cell) {
+      return example.values.contains(cell) && (!usable || (*usable)[cell]);
+    };
     float sum = 0;
     int count = 0;
-    if (const Vec3i on = from + step; example.values.contains(on)) {
+    if (const Vec3i on = from + step; known(on)) {
       sum += example.values[on] - example.values[from];
       ++count;
     }
-    if (const Vec3i back = to - step; example.values.contains(back)) {
+    if (const Vec3i back = to - step; known(back)) {
       sum += example.values[to] - example.values[back];
       ++count;
     }
@@ -202,9 +207,12 @@ DistanceField evenSeams(const DistanceField& example, const Origins& origins,
     field.values.values()[s] = v;
     voxels[s] = v / voxel;
   }
-  const std::vector<std::size_t> where = nearSeams(origins, options.reach);
+  std::vector<std::size_t> where = nearSeams(origins, options.reach);
+  if (options.fixed) {
+    std::erase_if(where, [&](std::size_t s) { return options.fixed->values()[s] != 0; });
+  }
   Relaxation relaxation(std::move(voxels), origins, where);
-  relaxation.blend(example, origins, options.blends);
+  relaxation.blend(example, origins, options);
   relaxation.relax(options.rounds);
   for (const std::size_t s : where) {
     float v = relaxation.values()[s] * voxel;

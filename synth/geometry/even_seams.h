@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <cstdint>
+
+#include "core/array3d.h"
 #include "core/origin.h"
 #include "sdf/distance_field.h"
 
@@ -12,6 +15,10 @@ struct EvenSeamsOptions {
   int reach = 4;    ///< how far from a seam samples may change, in steps; >= 0: 0 for not at all
   int blends = 20;  ///< rounds in the gradient domain; >= 0
   int rounds = 3;   ///< of relaxation to slope 1, half a voxel each; >= 0
+  /// Samples of the result that stay as copied, where not 0: of its size, or none.
+  const Array3D<std::uint8_t>* fixed = nullptr;
+  /// Samples of the example that mean something, where not 0: of its size, or none for all.
+  const Array3D<std::uint8_t>* usable = nullptr;
 };
 
 /// The field that origins (example 0, no turns) copy from `example`, with the steps between copied

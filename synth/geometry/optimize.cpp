@@ -6,17 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel.h"
 #include "core/random.h"
-#include "sdf/resample.h"
 #include "search/nearest_neighbor_field.h"
 #include "synth/geometry/broken_pieces.h"
 #include "synth/geometry/even_seams.h"
+#include "synth/geometry/patch_vote.h"
+#include "synth/geometry/pyramid.h"
 #include "synth/geometry/seams.h"
+#include "synth/geometry/source_sheet.h"
 
 namespace exemplar {
 namespace {
@@ -35,81 +37,10 @@ constexpr float kSeamTruncation = 4;
 /// Seams of the coarser levels, where a few samples reach far: pieces grow into large ones.
 constexpr SeamOptions kCoarseSeams{.reach = 16, .length = 0.05};
 constexpr SeamOptions kFineSeams{.passes = 1, .length = 0.005};
-
-/// One level of the pyramid: the example, shrunk, in voxels of the level, framed by air on the
-/// sides where the example ends in air.
-struct Level {
-  Array3D<float> source;
-  Vec3i patch;
-  Vec3i low, high;    ///< samples of air added before and after
-  Vec3i exampleSize;  ///< of the shrunk example, without the frame
-  Vec3i targetSize;   ///< of the result at this level, without the frame
-  Vec3i slack;        ///< samples added at the target's end, so that patches at kStride cover it
-  Vec3i framedTarget() const { return targetSize + low + high + slack; }
-};
-
-/// Which of the example's six sides are air all over: bit 2 * axis for the low side, + 1 for the
-/// high.
-int airSides(const DistanceField& example) {
-  const Vec3i n = example.size();
-  int sides = 0b111111;
-  for (std::size_t s = 0; s < example.values.count(); ++s) {
-    if (example.values.values()[s] > 0) continue;
-    const Vec3i p = example.values.ijk(s);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (p[axis] == 0) sides &= ~(1 << (2 * axis));
-      if (p[axis] == n[axis] - 1) sides &= ~(2 << (2 * axis));
-    }
-  }
-  return sides;
-}
-
-Level makeLevel(const DistanceField& example, int sides, int shrink,
-                const OptimizeOptions& options) {
-  const DistanceField shrunk = shrink == 1 ? example : blockAverage(example, shrink);
-  const float limit = static_cast<float>(options.truncation);
-  Level level;
-  level.exampleSize = shrunk.size();
-  for (int axis = 0; axis < 3; ++axis) {
-    level.targetSize[axis] = (options.size[axis] + shrink - 1) / shrink;
-    level.low[axis] = sides >> (2 * axis) & 1 ? options.patch / 2 : 0;
-    level.high[axis] = sides >> (2 * axis) & 2 ? options.patch / 2 : 0;
-  }
-  level.source = Array3D<float>(shrunk.size() + level.low + level.high, limit);
-  level.patch = min(Vec3i{options.patch, options.patch, options.patch}, level.source.size());
-  level.patch = min(level.patch, level.framedTarget());
-  for (int axis = 0; axis < 3; ++axis) {
-    level.slack[axis] = (level.framedTarget()[axis] - level.patch[axis]) % kStride;
-  }
-  for (std::size_t s = 0; s < shrunk.values.count(); ++s) {
-    const float voxels = shrunk.values.values()[s] / static_cast<float>(shrunk.voxelSize);
-    level.source[shrunk.values.ijk(s) + level.low] = std::clamp(voxels, -limit, limit);
-  }
-  return level;
-}
-
-/// Where each sample of the (framed) target comes from in the (framed) source, as an offset-bearing
-/// cell.
-using Sources = Array3D<Vec3i>;
-
-Array3D<float> gather(const Level& level, const Sources& sources) {
-  Array3D<float> target(sources.size());
-  for (std::size_t s = 0; s < sources.count(); ++s) {
-    target.values()[s] = level.source[sources.values()[s]];
-  }
-  return target;
-}
-
-/// Pins the frame to air.
-void pinFrame(const Level& level, float air, Array3D<float>& target) {
-  const Vec3i end = level.low + level.targetSize;
-  for (std::size_t s = 0; s < target.count(); ++s) {
-    const Vec3i p = target.ijk(s);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (p[axis] < level.low[axis] || p[axis] >= end[axis]) target.values()[s] = air;
-    }
-  }
-}
+/// How often a block that may not be copied is drawn again; the second half of times from anywhere.
+constexpr std::uint32_t kDraws = 32;
+/// How far beyond its box a periodic result's seams are evened out with it, in voxels.
+constexpr int kWrapMargin = 12;
 
 /// A sample's place along an axis on which the example is not stationary.
 int proportional(int p, int target, int source) {
@@ -118,63 +49,49 @@ int proportional(int p, int target, int source) {
              : static_cast<int>(std::llround(static_cast<double>(p) * (source - 1) / (target - 1)));
 }
 
-/// The coarsest level's start: blocks of random content, kept to their place along axes that are
-/// not stationary.
-Sources startFromRandomBlocks(const Level& level, const StationaryAxes& stationary,
-                              const OptimizeOptions& options) {
+/// The coarsest level's start: blocks of random content, of a random part, kept to their place
+/// along axes that are not stationary.
+PyramidSources startFromRandomBlocks(const PyramidLevel& level, const StationaryAxes& stationary,
+                                     const OptimizeOptions& options) {
   const Random random(options.seed, kStartStream);
-  const Vec3i size = level.framedTarget(), source = level.source.size();
+  const Vec3i size = level.framedTarget();
   const Vec3i block = max(level.patch, Vec3i{2, 2, 2});
   const Vec3i blocks{(size.x + block.x - 1) / block.x, (size.y + block.y - 1) / block.y,
                      (size.z + block.z - 1) / block.z};
-  Sources sources(size);
+  const auto parts = static_cast<std::uint32_t>(level.first.size());
+  PyramidSources sources(size);
   for (std::size_t s = 0; s < sources.count(); ++s) {
     const Vec3i p = sources.ijk(s);
-    Vec3i cell;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int b = p[axis] / block[axis];
-      const std::uint64_t key =
-          (static_cast<std::uint64_t>(p.z / block.z) * blocks.y + p.y / block.y) * blocks.x +
-          p.x / block.x;
-      if (stationary[axis]) {
-        const int range = std::max(1, source[axis] - block[axis] + 1);
-        cell[axis] = static_cast<int>(random.below(range, key, axis)) + p[axis] - b * block[axis];
-      } else {
-        cell[axis] = proportional(p[axis], size[axis], source[axis]);
+    const std::uint64_t key =
+        (static_cast<std::uint64_t>(p.z / block.z) * blocks.y + p.y / block.y) * blocks.x +
+        p.x / block.x;
+    for (std::uint32_t draw = 0; draw < 4 * kDraws; draw += 4) {
+      const std::uint32_t part = parts == 1 ? 0 : random.below(parts, key, draw + 3);
+      const Vec3i source = level.partSize[part] + level.low + level.high;
+      const Vec3i corner = level.first[part] - level.low;
+      Vec3i cell, first;
+      for (int axis = 0; axis < 3; ++axis) {
+        const int within = p[axis] % block[axis];
+        if (stationary[axis] || draw >= 2 * kDraws) {
+          const int range = std::max(1, source[axis] - block[axis] + 1);
+          first[axis] = static_cast<int>(random.below(range, key, draw + axis));
+          cell[axis] = first[axis] + within;
+        } else {
+          cell[axis] = proportional(p[axis], size[axis], source[axis]);
+          first[axis] = proportional(p[axis] - within, size[axis], source[axis]);
+        }
+        cell[axis] = std::clamp(cell[axis], 0, source[axis] - 1);
       }
-      cell[axis] = std::clamp(cell[axis], 0, source[axis] - 1);
+      sources[p] = cell + corner;
+      if (level.allowed.empty() || level.allowed[level.allowed.clamped(first + corner)]) break;
     }
-    sources[p] = cell;
-  }
-  return sources;
-}
-
-/// The next finer level's start: the same pieces, twice as large.
-Sources refine(const Level& coarse, const Sources& from, const Level& fine) {
-  Sources sources(fine.framedTarget());
-  for (std::size_t s = 0; s < sources.count(); ++s) {
-    const Vec3i p = sources.ijk(s);
-    Vec3i cell;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int inner = p[axis] - fine.low[axis];  // may lie in the frame
-      const int half = inner >> 1;
-      const int c = std::clamp(half + coarse.low[axis], 0, from.size()[axis] - 1);
-      cell[axis] = c;
-      (void)half;
-    }
-    const Vec3i origin = from[cell];
-    for (int axis = 0; axis < 3; ++axis) {
-      const int inner = p[axis] - fine.low[axis];
-      cell[axis] = std::clamp(2 * (origin[axis] - coarse.low[axis]) + (inner & 1) + fine.low[axis],
-                              0, fine.source.size()[axis] - 1);
-    }
-    sources[p] = cell;
   }
   return sources;
 }
 
 /// The field that a level's search starts from: each patch at where its middle comes from.
-NearestNeighborField startField(const Level& level, const Sources& sources, const Vec3i& stride) {
+NearestNeighborField startField(const PyramidLevel& level, const PyramidSources& sources,
+                                const Vec3i& stride) {
   NearestNeighborField field;
   const Vec3i last = sources.size() - level.patch;
   const Vec3i lastMatch = level.source.size() - level.patch;
@@ -189,16 +106,22 @@ NearestNeighborField startField(const Level& level, const Sources& sources, cons
   return field;
 }
 
+Channels channels(const Array3D<float>& values, const Array3D<float>& guide) {
+  if (guide.empty()) return {values};
+  return {values, guide};
+}
+
 /// The completeness term: how welcome each position of the source is, 1 / (alpha + the distance of
 /// its patch to the nearest in the target). `reverse`, the field that this is found by, is kept
 /// from round to round.
-Array3D<float> welcome(const Level& level, const Array3D<float>& target, double alpha,
+Array3D<float> welcome(const PyramidLevel& level, const Array3D<float>& target, double alpha,
                        NearestNeighborFieldOptions search, NearestNeighborField& reverse,
                        const Progress& progress) {
   const NearestNeighborField previous = std::move(reverse);
   search.method = NeighborMethod::PatchMatch;
   search.stride = {1, 1, 1};
   search.sourceWeight = nullptr;
+  search.allowed = nullptr;
   search.start = previous.position.empty() ? nullptr : &previous;
   search.iterations = search.start ? 2 : 5;
   reverse = nearestNeighborField({target}, {level.source}, search, progress);
@@ -211,142 +134,170 @@ Array3D<float> welcome(const Level& level, const Array3D<float>& target, double 
   return weight;
 }
 
-std::vector<float> gaussian(int patch) {
-  std::vector<float> weights(patch);
-  const double sigma = patch / 3.0;
-  for (int n = 0; n < patch; ++n) {
-    const double d = n - (patch - 1) / 2.0;
-    weights[n] = static_cast<float>(std::exp(-d * d / (2 * sigma * sigma)));
-  }
-  return weights;
-}
-
-/// How much a patch's say weighs (recipe of Kwatra 2005, section 3.2, softened near zero).
-float confidence(float distance) { return 1.0f / (0.05f + distance); }
-
-/// The patches whose samples cover one coordinate: first and one past the last index along an axis.
-struct Covering {
-  int begin, end;
-};
-Covering covering(int p, int patch, int stride, int patches) {
-  const int first = p - patch + 1;
-  return {first <= 0 ? 0 : (first + stride - 1) / stride, std::min(p / stride + 1, patches)};
-}
-
-/// Each sample becomes the mean of what the patches that cover it say.
-Array3D<float> vote(const Level& level, const NearestNeighborField& field, const Vec3i& size) {
-  Array3D<float> target(size);
-  const auto gx = gaussian(level.patch.x), gy = gaussian(level.patch.y),
-             gz = gaussian(level.patch.z);
-  const Vec3i n = field.position.size();
-  const std::size_t rows = static_cast<std::size_t>(size.y) * size.z;
-  parallelFor(0, rows, 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> sum(size.x), weight(size.x);
-    for (std::size_t row = begin; row < end; ++row) {
-      const int j = static_cast<int>(row % size.y), k = static_cast<int>(row / size.y);
-      std::fill(sum.begin(), sum.end(), 0.0f);
-      std::fill(weight.begin(), weight.end(), 0.0f);
-      const Covering cy = covering(j, level.patch.y, field.stride.y, n.y);
-      const Covering cz = covering(k, level.patch.z, field.stride.z, n.z);
-      for (int c = cz.begin; c < cz.end; ++c) {
-        const int dz = k - c * field.stride.z;
-        for (int b = cy.begin; b < cy.end; ++b) {
-          const int dy = j - b * field.stride.y;
-          for (int a = 0; a < n.x; ++a) {
-            const Vec3i from = field.position(a, b, c);
-            const float w = confidence(field.distance(a, b, c)) * gy[dy] * gz[dz];
-            const float* values = &level.source(from.x, from.y + dy, from.z + dz);
-            float* s = &sum[static_cast<std::size_t>(a) * field.stride.x];
-            float* t = &weight[static_cast<std::size_t>(a) * field.stride.x];
-            for (int i = 0; i < level.patch.x; ++i) {
-              s[i] += w * gx[i] * values[i];
-              t[i] += w * gx[i];
-            }
-          }
-        }
-      }
-      for (int i = 0; i < size.x; ++i) target(i, j, k) = sum[i] / weight[i];
-    }
-  });
-  return target;
-}
-
-/// Each sample takes the offset on which the patches that cover it agree most, by weight; the
-/// lowest offset on ties.
-Sources plurality(const Level& level, const NearestNeighborField& field, const Vec3i& size) {
-  Sources sources(size);
-  const auto gx = gaussian(level.patch.x), gy = gaussian(level.patch.y),
-             gz = gaussian(level.patch.z);
-  const Vec3i n = field.position.size();
-  const std::size_t rows = static_cast<std::size_t>(size.y) * size.z;
-  parallelFor(0, rows, 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::pair<Vec3i, float>> votes;
-    for (std::size_t row = begin; row < end; ++row) {
-      const int j = static_cast<int>(row % size.y), k = static_cast<int>(row / size.y);
-      const Covering cy = covering(j, level.patch.y, field.stride.y, n.y);
-      const Covering cz = covering(k, level.patch.z, field.stride.z, n.z);
-      for (int i = 0; i < size.x; ++i) {
-        const Covering cx = covering(i, level.patch.x, field.stride.x, n.x);
-        votes.clear();
-        for (int c = cz.begin; c < cz.end; ++c) {
-          for (int b = cy.begin; b < cy.end; ++b) {
-            for (int a = cx.begin; a < cx.end; ++a) {
-              const Vec3i d = Vec3i{i, j, k} - scaled(Vec3i{a, b, c}, field.stride);
-              const Vec3i cell = field.position(a, b, c) + d;
-              const float w = confidence(field.distance(a, b, c)) * gx[d.x] * gy[d.y] * gz[d.z];
-              const auto known = std::find_if(votes.begin(), votes.end(),
-                                              [&](const auto& v) { return v.first == cell; });
-              if (known == votes.end()) {
-                votes.emplace_back(cell, w);
-              } else {
-                known->second += w;
-              }
-            }
-          }
-        }
-        std::size_t best = 0;
-        for (std::size_t v = 1; v < votes.size(); ++v) {
-          if (votes[v].second > votes[best].second) best = v;
-        }
-        sources(i, j, k) = votes[best].first;
-      }
-    }
-  });
-  return sources;
-}
-
 Array3D<float> clamped(Array3D<float> values, float limit) {
   for (float& v : values.values()) v = std::clamp(v, -limit, limit);
   return values;
 }
 
-/// Moves seams to where both sides agree best, and then whole pieces and the seams once more: what
-/// a level starts with was found on a grid twice as coarse, and half of the offsets lie between.
-void cutSeams(const Level& level, const Array3D<float>& target, Sources& sources,
-              const Progress& progress) {
-  const Array3D<float> source = clamped(level.source, kSeamTruncation);
-  Origins origins(sources.size());
-  for (std::size_t s = 0; s < sources.count(); ++s) {
-    origins.values()[s] = Origin(sources.values()[s]);
+/// Moves the seams of a result to where both sides agree best. Where it is periodic, again with
+/// its faces in the middle; each time what is beside the outer faces stays, so that what was cut
+/// there before does not change.
+void refineAround(const Array3D<float>& source, const Array3D<float>& target,
+                  const PeriodicAxes& periodic, SeamOptions options, Origins& origins,
+                  const Progress& progress) {
+  if (!periodic.any()) {
+    refineSeams(source, target, origins, options, progress);
+    return;
   }
-  refineSeams(source, clamped(target, kSeamTruncation), origins, kCoarseSeams, progress);
-  if (!progress.cancelled() && alignPieces(source, origins) > 0) {
-    for (std::size_t s = 0; s < sources.count(); ++s) {
-      sources.values()[s] = origins.values()[s].cell();
+  const Vec3i n = origins.size();
+  Array3D<std::uint8_t> outer(n);
+  for (std::size_t s = 0; s < outer.count(); ++s) {
+    const Vec3i p = outer.ijk(s);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (periodic[axis] && (p[axis] == 0 || p[axis] == n[axis] - 1)) outer.values()[s] = 1;
     }
-    refineSeams(source, clamped(gather(level, sources), kSeamTruncation), origins, kCoarseSeams,
-                progress);
   }
-  for (std::size_t s = 0; s < sources.count(); ++s) {
-    sources.values()[s] = origins.values()[s].cell();
+  const Array3D<std::uint8_t> kept = options.fixed ? *options.fixed : Array3D<std::uint8_t>(n);
+  Vec3i half{0, 0, 0};
+  for (int axis = 0; axis < 3; ++axis) half[axis] = periodic[axis] ? n[axis] / 2 : 0;
+  for (const Vec3i& shift : {Vec3i{0, 0, 0}, half}) {
+    Array3D<std::uint8_t> fixed = rolled(kept, shift);
+    for (std::size_t s = 0; s < fixed.count(); ++s) fixed.values()[s] |= outer.values()[s];
+    options.fixed = &fixed;
+    Origins moved = rolled(origins, shift);
+    refineSeams(source, rolled(target, shift), moved, options, progress);
+    origins = rolled(moved, Vec3i{0, 0, 0} - shift);
   }
 }
 
-void check(const DistanceField& example, const OptimizeOptions& options) {
+/// Moves seams to where both sides agree best, and then whole pieces and the seams once more: what
+/// a level starts with was found on a grid twice as coarse, and half of the offsets lie between.
+void cutSeams(const PyramidLevel& level, const Array3D<float>& target, PyramidSources& sources,
+              const Progress& progress) {
+  const Array3D<float> source = clamped(level.source, kSeamTruncation);
+  const bool inner = level.periodic.any();
+  const auto cropped = [&](const auto& grid) { return inner ? withoutMargins(level, grid) : grid; };
+  const PyramidSources within = cropped(sources);
+  Origins origins(within.size());
+  for (std::size_t s = 0; s < within.count(); ++s) {
+    origins.values()[s] = Origin(within.values()[s]);
+  }
+  SeamOptions options = kCoarseSeams;
+  Array3D<std::uint8_t> fixed;
+  if (!level.kept.empty()) {
+    fixed = cropped(level.kept);
+    options.fixed = &fixed;
+  }
+  if (!level.usable.empty()) options.usable = &level.usable;
+  refineAround(source, cropped(clamped(target, kSeamTruncation)), level.periodic, options, origins,
+               progress);
+  if (!progress.cancelled() && alignPieces(source, origins, 1, options) > 0) {
+    Array3D<float> shown(origins.size());
+    for (std::size_t s = 0; s < shown.count(); ++s) {
+      shown.values()[s] = source[origins.values()[s].cell()];
+    }
+    refineAround(source, shown, level.periodic, options, origins, progress);
+  }
+  const Vec3i first = inner ? level.before : Vec3i{0, 0, 0};
+  for (std::size_t s = 0; s < origins.count(); ++s) {
+    sources[origins.ijk(s) + first] = origins.values()[s].cell();
+  }
+  pinSources(level, sources);
+}
+
+/// The last steps: from where the finest level's samples come from to a field.
+class Assembly {
+ public:
+  Assembly(const std::vector<SourcePart>& parts, const OptimizeOptions& options)
+      : parts_(parts), options_(options), sheet_(parts) {}
+
+  SynthesisResult run(const PyramidLevel& level, const PyramidSources& sources,
+                      const Array3D<float>& target, const Progress& progress) {
+    SynthesisResult result;
+    progress.report("cutting seams", 0);
+    Origins origins(options_.size);
+    for (std::size_t s = 0; s < origins.count(); ++s) {
+      const Vec3i cell = sources[origins.ijk(s) + level.before];
+      const std::size_t part = level.partOf(cell);
+      const Vec3i inside = parts_[part].field.values.clamped(cell - level.first[part]);
+      origins.values()[s] = Origin(inside + Vec3i{sheet_.first[part], 0, 0});
+    }
+    Array3D<float> copied = sheet_.field.values;
+    for (float& v : copied.values()) v /= static_cast<float>(sheet_.field.voxelSize);
+    copied = clamped(std::move(copied), kSeamTruncation);
+    SeamOptions seams = kFineSeams;
+    if (options_.kept) seams.fixed = &*options_.kept;
+    if (!sheet_.usable.empty()) seams.usable = &sheet_.usable;
+    alignPieces(copied, origins, 1, seams);
+    refineAround(copied, clamped(withoutMargins(level, target), kSeamTruncation), options_.periodic,
+                 seams, origins, progress);
+    if (progress.cancelled()) {
+      result.status = SynthesisStatus::Cancelled;
+      return result;
+    }
+    dropBrokenPieces(sheet_.field, origins, {seams.usable, seams.fixed});
+    result.field = even(origins, seams);
+    result.origins = std::move(origins);
+    for (Origin& origin : result.origins.values()) origin = sheet_.toExample(parts_, origin);
+    return result;
+  }
+
+ private:
+  DistanceField even(const Origins& origins, const SeamOptions& seams) const {
+    EvenSeamsOptions options;
+    options.fixed = seams.fixed;
+    options.usable = seams.usable;
+    if (!options_.periodic.any()) return evenSeams(sheet_.field, origins, options);
+    // With a margin that shows what lies at the other side, cut off again.
+    Vec3i margin{0, 0, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (options_.periodic[axis]) margin[axis] = std::min(kWrapMargin, origins.size()[axis]);
+    }
+    const Vec3i n = origins.size();
+    Origins around(n + margin * 2);
+    Array3D<std::uint8_t> fixed;
+    if (seams.fixed) {
+      fixed = Array3D<std::uint8_t>(around.size());
+      options.fixed = &fixed;
+    }
+    for (std::size_t s = 0; s < around.count(); ++s) {
+      Vec3i p = around.ijk(s) - margin;
+      for (int axis = 0; axis < 3; ++axis) p[axis] = (p[axis] + n[axis]) % n[axis];
+      around.values()[s] = origins[p];
+      if (seams.fixed) fixed.values()[s] = (*seams.fixed)[p];
+    }
+    DistanceField field = evenSeams(sheet_.field, around, options);
+    Array3D<float> inner(n);
+    for (std::size_t s = 0; s < inner.count(); ++s) {
+      inner.values()[s] = field.values[inner.ijk(s) + margin];
+    }
+    field.values = std::move(inner);
+    return field;
+  }
+
+  const std::vector<SourcePart>& parts_;
+  const OptimizeOptions& options_;
+  SourceSheet sheet_;
+};
+
+void check(std::span<const DistanceField* const> examples, const OptimizeOptions& options) {
   const auto fail = [](const std::string& what) { throw InputError(what); };
-  if (volume(example.size()) == 0) fail("the example has no samples");
+  if (examples.empty()) fail("there is no example");
+  if (examples.size() > 255) fail("more than 255 examples");
+  std::int64_t along = 0;
+  for (const DistanceField* example : examples) {
+    if (volume(example->size()) == 0) fail("the example has no samples");
+    if (std::abs(example->voxelSize / examples[0]->voxelSize - 1) > 1e-3) {
+      fail("the examples' voxels differ in size; sample them alike");
+    }
+    const Vec3i n = example->size();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (n[axis] > 32767) fail("the example is longer than 32,767 samples");
+    }
+    along += options.rotations ? 2 * (n.x + n.y + 2) : n.x + 1;
+  }
+  if (along > 32767) fail("the examples are longer than 32,767 samples, turned and side by side");
   for (int axis = 0; axis < 3; ++axis) {
-    if (example.size()[axis] > 32767) fail("the example is longer than 32,767 samples");
     if (options.size[axis] < 1) fail("the result's size must be at least 1 sample along each axis");
   }
   if (options.patch < 3 || options.patch > 15)
@@ -358,6 +309,11 @@ void check(const DistanceField& example, const OptimizeOptions& options) {
     fail("rounds " + std::to_string(options.rounds) + ": expected 1 to 100");
   if (!(options.truncation > 0)) fail("truncation must be above 0");
   if (!(options.completeness > 0)) fail("completeness must be above 0");
+  if (options.kept && options.kept->size() != options.size)
+    fail("what is kept is told for a result of another size");
+  if (options.guide && options.guide->size() != options.size)
+    fail("the guide is for a result of another size");
+  if (!(options.guideWeight > 0)) fail("the guide's weight must be above 0");
   requireMemory(120.0 * static_cast<double>(volume(options.size)), "a result of this size",
                 "use a lower resolution or a smaller scale");
 }
@@ -370,34 +326,127 @@ int defaultLevels(const DistanceField& example) {
   return levels;
 }
 
+/// Multiplies the prices of each example's patches, so that one that is used more than its share
+/// becomes dearer: examples that do not go together would else drive each other out.
+void balanceExamples(const PyramidLevel& level, const std::vector<SourcePart>& parts,
+                     const NearestNeighborField& field, Array3D<float>& weight) {
+  const int examples = parts.back().example + 1;
+  std::vector<double> used(examples);
+  for (const Vec3i& p : field.position.values()) ++used[parts[level.partOf(p)].example];
+  const double share = static_cast<double>(field.position.count()) / examples;
+  if (weight.empty()) weight = Array3D<float>(level.source.size(), 1.0f);
+  for (std::size_t s = 0; s < weight.count(); ++s) {
+    const double use = used[parts[level.partOf(weight.ijk(s))].example] / share;
+    weight.values()[s] *= static_cast<float>(std::clamp(use * use, 0.1, 10.0));
+  }
+}
+
+/// The examples, turned in all ways that are asked for. What is kept, where it is in the example,
+/// is all that is copied.
+std::vector<SourcePart> sourceParts(std::span<const DistanceField* const> examples,
+                                    const OptimizeOptions& options) {
+  std::vector<SourcePart> parts;
+  for (std::size_t e = 0; e < examples.size(); ++e) {
+    DistanceField mask = *examples[e];
+    const bool masked = e == 0 && options.kept;
+    if (masked) {
+      for (std::size_t s = 0; s < mask.values.count(); ++s) {
+        const Vec3i p = mask.values.ijk(s);
+        mask.values.values()[s] = options.kept->contains(p) && (*options.kept)[p] ? 1 : 0;
+      }
+    }
+    for (int turns = 0; turns < (options.rotations ? 4 : 1); ++turns) {
+      SourcePart part{turnedField(*examples[e], turns), static_cast<int>(e), turns, {}};
+      if (masked) {
+        const DistanceField usable = turnedField(mask, turns);
+        part.usable = Array3D<std::uint8_t>(usable.size());
+        for (std::size_t s = 0; s < usable.values.count(); ++s) {
+          part.usable.values()[s] = usable.values.values()[s] != 0;
+        }
+      }
+      parts.push_back(std::move(part));
+    }
+  }
+  return parts;
+}
+
 }  // namespace
+
+StationaryAxes stationaryAxes(std::span<const DistanceField* const> examples,
+                              const OptimizeOptions& options) {
+  if (options.stationary) return *options.stationary;
+  StationaryAxes all;
+  for (const DistanceField* example : examples) {
+    const bool masked = example == examples[0] && options.kept;
+    const StationaryAxes axes = findStationaryAxes(*example, masked ? &*options.kept : nullptr);
+    all = {all.x && axes.x, all.y && axes.y, all.z && axes.z};
+  }
+  return all;
+}
 
 SynthesisResult synthesizeOptimized(const DistanceField& example, const OptimizeOptions& options,
                                     const Progress& progress) {
-  check(example, options);
-  const StationaryAxes stationary = options.stationary.value_or(findStationaryAxes(example));
-  const int levels = options.levels.value_or(defaultLevels(example));
-  const int sides = airSides(example);
+  const DistanceField* examples[] = {&example};
+  return synthesizeOptimized(examples, options, progress);
+}
+
+SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> examples,
+                                    const OptimizeOptions& options, const Progress& progress) {
+  check(examples, options);
+  OptimizeOptions given = options;
+  if (given.kept) {
+    // Only what the first example holds can be kept.
+    for (std::size_t s = 0; s < given.kept->count(); ++s) {
+      if (!examples[0]->values.contains(given.kept->ijk(s))) given.kept->values()[s] = 0;
+    }
+  }
+  const StationaryAxes stationary = stationaryAxes(examples, given);
+  if (options.rotations && !(stationary.x && stationary.y)) {
+    throw InputError(
+        "turning parts needs an example that is stationary along x and y; say that it is one "
+        "(--stationary xy or xyz), or do not turn");
+  }
+  const std::vector<SourcePart> parts = sourceParts(examples, given);
+  const int levels = options.levels.value_or(defaultLevels(*examples[0]));
   const float air = static_cast<float>(options.truncation);
+  PyramidOptions pyramid{options.size, options.patch, kStride, options.truncation,
+                         options.periodic};
+  if (given.kept) pyramid.kept = &*given.kept;
+  if (given.guide) pyramid.guide = &*given.guide;
 
   SynthesisResult result;
-  Level level = makeLevel(example, sides, 1 << (levels - 1), options);
-  Sources sources = startFromRandomBlocks(level, stationary, options);
+  PyramidLevel level = makeLevel(parts, levels - 1, pyramid);
+  PyramidSources sources = startFromRandomBlocks(level, stationary, options);
   Array3D<float> target;
   for (int l = levels - 1; l >= 0; --l) {
     if (l < levels - 1) {
-      Level finer = makeLevel(example, sides, 1 << l, options);
-      sources = refine(level, sources, finer);
+      PyramidLevel finer = makeLevel(parts, l, pyramid);
+      sources = refineSources(level, sources, finer);
       level = std::move(finer);
     }
+    pinSources(level, sources);
+    const bool guided = !level.guideTarget.empty() && (l > 0 || levels == 1);
     target = gather(level, sources);
-    pinFrame(level, air, target);
+    pinTarget(level, air, target);
+    Array3D<float> guideSource, guideTarget;
+    if (guided) {
+      const auto weight = static_cast<float>(std::sqrt(options.guideWeight));
+      guideSource = level.guideSource;
+      guideTarget = level.guideTarget;
+      for (float& v : guideSource.values()) v *= weight;
+      for (float& v : guideTarget.values()) v *= weight;
+    }
 
     NearestNeighborFieldOptions search;
     search.patch = level.patch;
     for (int axis = 0; axis < 3; ++axis) {
-      search.window[axis] = stationary[axis] ? -1 : std::max(1, level.source.size()[axis] / 32);
+      // A guide says where things are, and parts side by side have no common place along x, nor
+      // along axes on which they differ in size.
+      bool free = stationary[axis] || guided || given.kept || (axis == 0 && parts.size() > 1);
+      for (const Vec3i& part : level.partSize) free = free || part[axis] != level.partSize[0][axis];
+      search.window[axis] = free ? -1 : std::max(1, level.source.size()[axis] / 32);
     }
+    if (!level.allowed.empty()) search.allowed = &level.allowed;
     const Vec3i size = level.framedTarget();
     const Vec3i places = level.source.size() - level.patch + Vec3i{1, 1, 1};
     const bool exact =
@@ -426,42 +475,29 @@ SynthesisResult synthesizeOptimized(const DistanceField& example, const Optimize
         }
         search.sourceWeight = &weight;
       }
-      field = nearestNeighborField({level.source}, {target}, search, progress);
+      if (examples.size() > 1 && l > 0) {
+        if (!search.sourceWeight) weight = {};
+        balanceExamples(level, parts, previous, weight);
+        search.sourceWeight = &weight;
+      }
+      field = nearestNeighborField(channels(level.source, guideSource),
+                                   channels(target, guideTarget), search, progress);
       if (!field.complete || progress.cancelled()) {
         result.status = SynthesisStatus::Cancelled;
         break;
       }
       result.matches += volume(field.position.size());
       target = vote(level, field, size);
-      pinFrame(level, air, target);
+      pinTarget(level, air, target);
     }
-    if (result.status == SynthesisStatus::Cancelled) break;
+    if (result.status == SynthesisStatus::Cancelled) return result;
     sources = plurality(level, field, size);
+    pinSources(level, sources);
     if (l > 0) cutSeams(level, target, sources, progress);
   }
-
-  if (result.status == SynthesisStatus::Cancelled) return result;
-  progress.report("cutting seams", 0);
-  Origins origins(options.size);
-  Array3D<float> wanted(options.size);
-  for (std::size_t s = 0; s < origins.count(); ++s) {
-    const Vec3i p = origins.ijk(s);
-    const Vec3i cell = sources[p + level.low] - level.low;
-    origins[p] = Origin(example.values.clamped(cell));
-    wanted[p] = target[p + level.low];
-  }
-  Array3D<float> copied = example.values;
-  for (float& v : copied.values()) v /= static_cast<float>(example.voxelSize);
-  copied = clamped(std::move(copied), kSeamTruncation);
-  alignPieces(copied, origins, 1, kFineSeams);
-  refineSeams(copied, clamped(std::move(wanted), kSeamTruncation), origins, kFineSeams, progress);
-  if (progress.cancelled()) {
-    result.status = SynthesisStatus::Cancelled;
-    return result;
-  }
-  dropBrokenPieces(example, origins);
-  result.field = evenSeams(example, origins);
-  result.origins = std::move(origins);
+  const std::int64_t matches = result.matches;
+  result = Assembly(parts, given).run(level, sources, target, progress);
+  result.matches = matches;
   return result;
 }
 

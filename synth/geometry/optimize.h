@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
+#include "synth/geometry/pyramid.h"
 #include "synth/geometry/stationary.h"
 #include "synth/geometry/synthesize.h"
 
@@ -25,6 +27,20 @@ struct OptimizeOptions {
   /// all levels but the finest (which only adds detail), unless that is the only one.
   double completeness = 0.2;
   std::optional<StationaryAxes> stationary;  ///< found from the example by default
+  /// Along which axes the result goes on at its opposite side, so that copies of it tile space.
+  PeriodicAxes periodic;
+  /// What stays as it is: samples of the result, not 0, that are the (first) example's of the same
+  /// place, to the bit; of the result's size. Only what is kept is copied from that example, so
+  /// what is not kept of it (a hole in a scan) is made new. Samples outside the example are passed
+  /// over.
+  std::optional<Array3D<std::uint8_t>> kept;
+  /// What the solid shall be near to, coarsely: distances in voxels, below 0 where solid is wanted;
+  /// of the result's size. Axes that are not stationary are then moved along like others.
+  std::optional<Array3D<float>> guide;
+  double guideWeight = 1;  ///< of the guide's squared differences among the example's own; > 0
+  /// Parts may be turned about z by quarter turns. Needs an example that is stationary along x and
+  /// y.
+  bool rotations = false;
 };
 
 /// Geometry synthesis by patch optimisation, coarse to fine: each level alternates a
@@ -48,5 +64,15 @@ struct OptimizeOptions {
 /// options out of range.
 SynthesisResult synthesizeOptimized(const DistanceField& example, const OptimizeOptions& options,
                                     const Progress& progress = {});
+
+/// The axes that a synthesis moves parts along: those that the options name, or those along which
+/// all examples are stationary, by what is kept of the first.
+StationaryAxes stationaryAxes(std::span<const DistanceField* const> examples,
+                              const OptimizeOptions& options);
+
+/// The same from several examples, of one voxel size: parts of all of them meet in the result, and
+/// origins tell which.
+SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> examples,
+                                    const OptimizeOptions& options, const Progress& progress = {});
 
 }  // namespace exemplar

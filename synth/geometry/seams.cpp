@@ -28,7 +28,10 @@ class SeamEnergy {
              const SeamOptions& options)
       : example_(example), target_(target), options_(options) {}
 
-  bool possible(const Vec3i& x, const Vec3i& offset) const { return example_.contains(x + offset); }
+  bool possible(const Vec3i& x, const Vec3i& offset) const {
+    return example_.contains(x + offset) && (!options_.usable || (*options_.usable)[x + offset]);
+  }
+  bool fixed(const Vec3i& x) const { return options_.fixed && (*options_.fixed)[x]; }
 
   std::int64_t sample(const Vec3i& x, const Vec3i& offset) const {
     const double d = copied(x, offset) - target_[x];
@@ -106,6 +109,7 @@ void findSurroundings(const Piece& piece, const Origins& origins, const SeamEner
       const Vec3i y = x + step;
       if (!number.contains(y - piece.low) || number[y - piece.low] >= 0) continue;
       if (origins[y].cell() - y == piece.offset || !energy.possible(y, piece.offset)) continue;
+      if (energy.fixed(y)) continue;
       number[y - piece.low] = static_cast<std::int32_t>(nodes.size());
       nodes.push_back(y);
     }
@@ -205,6 +209,10 @@ int alignPieces(const Array3D<float>& example, Origins& origins, int reach,
   int moved = 0;
   std::vector<Face> faces;
   for (const Piece& piece : findPieces(origins, options)) {
+    if (options.fixed && std::any_of(piece.samples.begin(), piece.samples.end(),
+                                     [&](const Vec3i& x) { return energy.fixed(x); })) {
+      continue;
+    }
     faces.clear();
     Vec3i low = piece.samples.front(), high = low;
     for (const Vec3i& x : piece.samples) {
@@ -230,7 +238,12 @@ int alignPieces(const Array3D<float>& example, Origins& origins, int reach,
     for (int n = 0; n < candidates; ++n) {
       const Vec3i offset = piece.offset + Vec3i{n % side, n / side % side, n / side / side} -
                            Vec3i{reach, reach, reach};
-      if (!energy.possible(low, offset) || !energy.possible(high, offset)) continue;
+      if (!example.contains(low + offset) || !example.contains(high + offset)) continue;
+      if (options.usable &&
+          !std::all_of(piece.samples.begin(), piece.samples.end(),
+                       [&](const Vec3i& x) { return energy.possible(x, offset); })) {
+        continue;
+      }
       const std::int64_t sum = cost(offset, least);
       if (sum >= least) continue;
       least = sum;

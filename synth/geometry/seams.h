@@ -17,6 +17,10 @@ struct SeamOptions {
   double fidelity = 0.02;  ///< weight of staying near `target`, per squared unit; >= 0
   double length = 0.02;    ///< cost of a seam's face in itself; >= 0: shorter seams, larger pieces
   int smallest = 8;        ///< pieces of fewer samples do not grow (but may be taken), >= 1
+  /// Samples of the result that keep their origins, where not 0: of its size, or none.
+  const Array3D<std::uint8_t>* fixed = nullptr;
+  /// Samples of the example that may be copied, where not 0: of its size, or none for all.
+  const Array3D<std::uint8_t>* usable = nullptr;
 };
 
 /// Moves the seams between copied pieces to where both sides agree best.

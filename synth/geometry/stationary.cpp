@@ -7,7 +7,8 @@
 
 namespace exemplar {
 
-StationaryAxes findStationaryAxes(const DistanceField& example) {
+StationaryAxes findStationaryAxes(const DistanceField& example,
+                                  const Array3D<std::uint8_t>* known) {
   StationaryAxes axes;
   bool* flags[] = {&axes.x, &axes.y, &axes.z};
   const Vec3i n = example.size();
@@ -17,6 +18,7 @@ StationaryAxes findStationaryAxes(const DistanceField& example) {
     double occupied[4] = {}, count[4] = {};
     for (std::size_t s = 0; s < example.values.count(); ++s) {
       const Vec3i p = example.values.ijk(s);
+      if (known && !(known->contains(p) && (*known)[p])) continue;
       const int part = p[axis] * 4 / n[axis];
       occupied[part] += example.values.values()[s] < 0;
       count[part] += 1;
@@ -28,7 +30,7 @@ StationaryAxes findStationaryAxes(const DistanceField& example) {
       high = std::max(high, occupied[part] / count[part]);
     }
     const double mean = (occupied[0] + occupied[1] + occupied[2] + occupied[3]) /
-                        static_cast<double>(example.values.count());
+                        std::max(1.0, count[0] + count[1] + count[2] + count[3]);
     *flags[axis] = high - low <= 0.5 * std::min(mean, 1 - mean) + 0.02;
   }
   return axes;

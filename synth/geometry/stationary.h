@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <cstdint>
+
+#include "core/array3d.h"
 #include "sdf/distance_field.h"
 
 namespace exemplar {
@@ -15,7 +18,9 @@ struct StationaryAxes {
 };
 
 /// Finds the axes along which the example is stationary: those along which the occupancy of its
-/// quarters does not differ by more than half of the solid's (or the air's) share. O(samples).
-StationaryAxes findStationaryAxes(const DistanceField& example);
+/// quarters does not differ by more than half of the solid's (or the air's) share. `known`: samples
+/// that count, where not 0 (those it does not hold do not); none for all. O(samples).
+StationaryAxes findStationaryAxes(const DistanceField& example,
+                                  const Array3D<std::uint8_t>* known = nullptr);
 
 }  // namespace exemplar

@@ -1,0 +1,129 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/detail.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "sdf/resample.h"
+#include "synth/geometry/even_seams.h"
+#include "synth/geometry/seams.h"
+#include "synth/geometry/source_sheet.h"
+
+namespace exemplar {
+namespace {
+
+constexpr int kMostDetail = 16;
+/// Seams see distances up to here, in fine voxels.
+constexpr float kSeamTruncation = 4;
+
+/// The cell of a turned grid of size `n` that a cell of the grid becomes: the inverse of
+/// `SourcePart::unturned`.
+Vec3i turnedCell(const Vec3i& n, int turns, const Vec3i& cell) {
+  switch (turns) {
+    case 1:
+      return {n.x - 1 - cell.y, cell.x, cell.z};
+    case 2:
+      return {n.x - 1 - cell.x, n.y - 1 - cell.y, cell.z};
+    case 3:
+      return {cell.y, n.y - 1 - cell.x, cell.z};
+    default:
+      return cell;
+  }
+}
+
+}  // namespace
+
+SynthesisResult addDetail(std::span<const DistanceField* const> fine, const Origins& origins,
+                          int factor, const Progress& progress) {
+  if (factor < 1 || factor > kMostDetail) {
+    throw InputError("detail " + std::to_string(factor) + ": expected 1 to " +
+                     std::to_string(kMostDetail));
+  }
+  requireMemory(40.0 * static_cast<double>(volume(origins.size())) * factor * factor * factor,
+                "a result of this detail", "use less detail");
+  // The parts that the origins speak of: examples in all their turns.
+  std::map<std::pair<int, int>, std::size_t> numbers;
+  for (const Origin& origin : origins.values()) numbers[{origin.example, origin.turns}] = 0;
+  std::vector<SourcePart> parts;
+  for (auto& [key, number] : numbers) {
+    if (key.first >= static_cast<int>(fine.size())) {
+      throw InputError("the origins name example " + std::to_string(key.first + 1) + " of " +
+                       std::to_string(fine.size()));
+    }
+    number = parts.size();
+    parts.push_back({turnedField(*fine[key.first], key.second), key.first, key.second, {}});
+  }
+  const SourceSheet sheet(parts);
+  Origins pulled(origins.size() * factor);
+  for (std::size_t s = 0; s < pulled.count(); ++s) {
+    const Vec3i p = pulled.ijk(s);
+    const Vec3i coarse{p.x / factor, p.y / factor, p.z / factor};
+    const Origin from = origins[coarse];
+    const std::size_t number = numbers.at({from.example, from.turns});
+    const SourcePart& part = parts[number];
+    const Vec3i n = part.field.size();
+    const Vec3i cell =
+        turnedCell({n.x / factor, n.y / factor, n.z / factor}, part.turns, from.cell());
+    const Vec3i sample = cell * factor + (p - coarse * factor);
+    if (!part.field.values.contains(sample)) {
+      throw InputError("the finer example does not fit the origins: they name cell " +
+                       std::to_string(from.cell().x) + ", " + std::to_string(from.cell().y) + ", " +
+                       std::to_string(from.cell().z) + "; sample the example as for the synthesis");
+    }
+    pulled.values()[s] = Origin(sample + Vec3i{sheet.first[number], 0, 0});
+  }
+
+  Array3D<float> copied = sheet.field.values;
+  for (float& v : copied.values()) {
+    v = std::clamp(v / static_cast<float>(sheet.field.voxelSize), -kSeamTruncation,
+                   kSeamTruncation);
+  }
+  Array3D<float> target(pulled.size());
+  for (std::size_t s = 0; s < pulled.count(); ++s) {
+    target.values()[s] = copied[pulled.values()[s].cell()];
+  }
+  SeamOptions seams;
+  seams.passes = 1;
+  seams.reach = 2 * factor;
+  seams.length = 0.005;
+  if (!sheet.usable.empty()) seams.usable = &sheet.usable;
+  if (factor > 1) refineSeams(copied, target, pulled, seams, progress);
+  SynthesisResult result;
+  if (progress.cancelled()) {
+    result.status = SynthesisStatus::Cancelled;
+    return result;
+  }
+  EvenSeamsOptions even;
+  even.usable = seams.usable;
+  result.field = evenSeams(sheet.field, pulled, even);
+  result.origins = std::move(pulled);
+  for (Origin& origin : result.origins.values()) origin = sheet.toExample(parts, origin);
+  return result;
+}
+
+DistanceField sampledFinely(const DistanceField& field, const DistanceField& like, int factor) {
+  DistanceField fine;
+  fine.values = Array3D<float>(like.size() * factor);
+  fine.voxelSize = like.voxelSize / factor;
+  const double half = (fine.voxelSize - like.voxelSize) / 2;
+  fine.origin = like.origin + Vec3d{half, half, half};
+  fine.truncation = field.truncation;
+  parallelFor(0, fine.values.count(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      fine.values.values()[s] =
+          sampleTrilinear(field, fine.position(cast<double>(fine.values.ijk(s))));
+    }
+  });
+  return fine;
+}
+
+}  // namespace exemplar

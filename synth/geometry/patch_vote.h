@@ -1,0 +1,23 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "search/nearest_neighbor_field.h"
+#include "synth/geometry/pyramid.h"
+
+namespace exemplar {
+
+/// Each sample of a level's target, of this size, becomes the mean of what the patches that cover
+/// it say, weighted by how near each is to its match and the sample to its middle (Kwatra et al.,
+/// "Texture optimization for example-based synthesis", SIGGRAPH 2005, doi:10.1145/1073204.1073263,
+/// section 3.2).
+Array3D<float> vote(const PyramidLevel& level, const NearestNeighborField& field,
+                    const Vec3i& size);
+
+/// Each sample takes the source on which the patches that cover it agree most, by the same weights;
+/// the first in the order of the patches on ties.
+PyramidSources plurality(const PyramidLevel& level, const NearestNeighborField& field,
+                         const Vec3i& size);
+
+}  // namespace exemplar
