@@ -119,19 +119,13 @@ class Gears {
       }
     }
     kit_.at({x, row.y, z});
-    const bool right = has(row, x + 2, z), up = has(row, x, z + 2), left = has(row, x - 2, z),
-               down = has(row, x, z - 2);
     for (int n = 0; n < kTeeth; ++n) {
-      const double turn = (n + (odd ? 0.5 : 0.0)) / kTeeth;
-      const double angle = 2 * std::numbers::pi * turn;
-      // Teeth reach between those of the next wheel, and no further than the cells elsewhere.
-      const double c = std::cos(angle), s = std::sin(angle);
-      const bool meshes =
-          (right && c > 0.97) || (left && c < -0.97) || (up && s > 0.97) || (down && s < -0.97);
-      tooth(angle, meshes ? 1.07 : 0.985, metal);
+      // Wheels side by side are half a tooth apart; no tooth leaves the wheel's own cells.
+      tooth(2 * std::numbers::pi * (n + (odd ? 0.5 : 0.0)) / kTeeth, 0.985, metal);
     }
-    // The axle that the wheel turns on, in a bearing on its post.
-    ring(1, 1, 0, 0.12, 0.12, 0.95, 8, iron_);
+    // The axle that the wheel turns on, in a bearing on its post, as long as the row is deep: it
+    // looks the same whether or not a shaft goes on.
+    ring(1, 1, 0, 0.12, 0, 1, 8, iron_);
   }
 
   void spoke(double angle, std::uint32_t metal) {
@@ -172,7 +166,7 @@ class Gears {
 
   void shaft(const Row& from, const Row& to, const std::array<int, 2>& wheel) {
     kit_.at({wheel[0], from.y, wheel[1]});
-    ring(1, 1, 0, 0.12, 0.95, to.y - from.y + 0.12, 8, iron_);
+    ring(1, 1, 0, 0.12, 1, to.y - from.y, 8, iron_);
   }
 
   void addBelt(int y, int x0, int x1, int z) {
