@@ -181,7 +181,7 @@ LabelExample loadLabelFrames(const std::vector<std::string>& paths, const LabelR
   }
   for (LabelGrid& grid : grids) grid.labels = first.grid.labels;
   if (paths.size() > 1) {
-    first.description += ", " + withThousands(static_cast<long long>(paths.size())) + " frames";
+    first.description += ", " + withThousands(static_cast<long long>(paths.size())) + " files";
   }
   return first;
 }

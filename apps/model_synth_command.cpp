@@ -33,6 +33,7 @@ struct Options {
   std::string engine = "model";
   std::vector<std::string> sides, pins, counts, connected, weights, weightMaps, offsets;
   std::string periodic, mirror, mask;
+  std::vector<std::string> mirroredX, mirroredY, turned;
   int turns = 1;
   std::optional<int> frames;
   std::optional<LabelChoice> choice;
@@ -147,6 +148,26 @@ void readAxes(const std::string& text, const std::string& option, bool* axes, in
   }
 }
 
+/// Adds what the user says that labels become, "LABEL=LABEL", to a table of a symmetry. A mirror
+/// image's image is the label itself.
+void readImages(const std::vector<std::string>& texts, const std::string& option, bool mirror,
+                const LabelGrid& grid, std::vector<Label>& table) {
+  for (const std::string& text : texts) {
+    const auto [from, to] = keyAndValue(text, option, "LABEL=LABEL");
+    const std::vector<Label> a = parseLabels(from, grid, option), b = parseLabels(to, grid, option);
+    if (a.size() != 1 || b.size() != 1) {
+      throw InputError(option + " " + text + ": expected one label on each side");
+    }
+    if (table.empty()) {
+      for (int label = 0; label < grid.labelCount(); ++label) {
+        table.push_back(static_cast<Label>(label));
+      }
+    }
+    table[a[0]] = b[0];
+    if (mirror) table[b[0]] = a[0];
+  }
+}
+
 /// A map of the result: a picture's grey, 0..1, for each cell of a layer seen from above, or, from
 /// a grid of the result's own size, the number in each cell.
 Array3D<float> readMap(const std::string& path, const Vec3i& size, const std::string& option) {
@@ -217,6 +238,9 @@ ModelOptions modelOptions(const Options& options, const LabelExample& example) {
     model.symmetry.mirroredY = example.pieces->mirroredY;
     model.symmetry.turned = example.pieces->turned;
   }
+  readImages(options.mirroredX, "--mirrored-x", true, grid, model.symmetry.mirroredX);
+  readImages(options.mirroredY, "--mirrored-y", true, grid, model.symmetry.mirroredY);
+  readImages(options.turned, "--turned", false, grid, model.symmetry.turned);
   for (const std::string& text : options.pins) {
     const auto [cell, labels] = keyAndValue(text, "--pin", "X,Y,Z=LABEL,...");
     const std::vector<double> xyz = parseNumbers(cell, 3, "--pin " + text);
@@ -341,15 +365,15 @@ void synth(const Options& options) {
       loadLabelFrames(options.examples, options.reading, grids, terminal.progress());
   terminal.stopIfInterrupted();
   terminal.say("example", options.examples.front() + ": " + example.description);
-  const bool moves = options.examples.size() > 1;
+  const bool moves = options.frames.has_value();
   ModelOptions model = modelOptions(options, example);
-  model.frames = moves ? options.frames.value_or(static_cast<int>(grids.size())) : 1;
-  if (!moves && (options.frames || model.loop)) {
-    throw InputError("--frames and --loop: give the frames of an example, several files");
+  model.frames = options.frames.value_or(1);
+  if (moves && options.examples.size() < 2) {
+    throw InputError("--frames: give the frames of an example, several files");
   }
-  if (!moves && lowerExtension(options.output) == ".gif") {
-    throw InputError(options.output +
-                     ": an animation needs the frames of an example, several files");
+  if (!moves && (model.loop || lowerExtension(options.output) == ".gif")) {
+    throw InputError((model.loop ? "--loop" : options.output) +
+                     ": only what changes over time does; say how many --frames");
   }
   if (lowerExtension(options.output) == ".png" && model.size.z != 1) {
     throw InputError(options.output + ": a picture has one layer, and the result " +
@@ -450,6 +474,12 @@ void addRequestOptions(CLI::App& command, Options& options) {
                      "make the result its own mirror image across x, y or both (xy)");
   command.add_option("--turns", options.turns, "alike after a half (2) or quarter (4) turn")
       ->check(CLI::IsMember({1, 2, 4}));
+  command.add_option("--mirrored-x", options.mirroredX,
+                     "labels that are mirror images of each other across x: LABEL=LABEL (known of "
+                     "model pieces; others are their own)");
+  command.add_option("--mirrored-y", options.mirroredY, "the same across y");
+  command.add_option("--turned", options.turned,
+                     "what a label becomes by a quarter turn anticlockwise: LABEL=LABEL");
   command.add_option("--offset", options.offsets,
                      "keep the example's pairs at a further offset, too: X,Y,Z, as 1,1,0");
 }
@@ -461,9 +491,11 @@ CommandRun addModelSynthCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("synth", "Synthesize more of an example by its labels (model synthesis)");
   command
-      ->add_option("EXAMPLE", options->examples,
-                   "a label grid (.txt .vox .vdb), a picture, a mesh with --cell, or a scene; "
-                   "several label grids or pictures are the frames of one that changes over time")
+      ->add_option(
+          "EXAMPLE", options->examples,
+          "a label grid (.txt .vox .vdb), a picture, a mesh with --cell, or a scene; "
+          "several label grids or pictures are examples of one kind, or, with --frames, the "
+          "frames of one that changes over time")
       ->required();
   command
       ->add_option(
@@ -508,7 +540,10 @@ CommandRun addModelSynthCommand(CLI::App& app) {
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000000}))
       ->capture_default_str();
   addRequestOptions(*command, *options);
-  command->add_option("--frames", options->frames, "frames of the result (as many as examples)")
+  command
+      ->add_option("--frames", options->frames,
+                   "the examples are the frames of one that changes over time; make so many of the "
+                   "result")
       ->check(CLI::Range(1, 10000));
   command->add_flag("--loop", options->model.loop, "the last frame is followed by the first");
   command->add_flag("--instances", options->instances,

@@ -221,7 +221,8 @@ TEST_F(LabelCommand, FramesOfAnExampleBecomeFramesOfAResult) {
     for (int x = 0; x < 4; ++x) out << (x == n ? 1 : 0) << "\n";
     frames += " ball" + std::to_string(n) + ".txt";
   }
-  const std::string request = frames + " --periodic x --size 4,1,1 --loop --pin 0,0,0=1 -q";
+  const std::string request =
+      frames + " --periodic x --size 4,1,1 --frames 4 --loop --pin 0,0,0=1 -q";
   ASSERT_EQ(run("synth -o roll.txt" + request).status, 0);
   ASSERT_EQ(run("synth -o roll.gif" + request).status, 0);
   for (int n = 0; n < 4; ++n) {
@@ -230,6 +231,32 @@ TEST_F(LabelCommand, FramesOfAnExampleBecomeFramesOfAResult) {
     EXPECT_TRUE(n > 0 || grid.labels[0] == 1);
   }
   EXPECT_EQ(readFile(folder_ / "roll.gif").substr(0, 6), "GIF89a");
+}
+
+TEST_F(LabelCommand, SymmetryTakesWhatLabelsAreSaidToBecome) {
+  // Corners at small x (5, 6) and at large x (7, 8), at small y (5, 7) and at large y (6, 8).
+  ASSERT_EQ(run("synth rings.txt -o out.txt --size 12,11,3 --mirror x --mirrored-x 5=7 "
+                "--mirrored-x 6=8 --pin 2,3,0=5 -q")
+                .status,
+            0);
+  const Grid grid = readGrid(folder_ / "out.txt");
+  const int image[] = {0, 1, 2, 3, 4, 7, 8, 5, 6, 9};
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < 12; ++i) {
+      for (int j = 0; j < 11; ++j) {
+        EXPECT_EQ(grid.at(11 - i, j, k), image[grid.at(i, j, k)]);
+      }
+    }
+  }
+}
+
+TEST_F(LabelCommand, SeveralExamplesAreOneStyle) {
+  std::ofstream(folder_ / "a.txt") << "a\nb\nc\n2 1 1\n\n1\n2\n";
+  std::ofstream(folder_ / "b.txt") << "a\nb\nc\n2 1 1\n\n2\n1\n";
+  ASSERT_EQ(run("synth a.txt b.txt -o out.txt --size 5,1,1 -q").status, 0);
+  const Grid grid = readGrid(folder_ / "out.txt");
+  for (int i = 0; i + 1 < 5; ++i) EXPECT_NE(grid.at(i, 0, 0), grid.at(i + 1, 0, 0));
+  EXPECT_EQ(run("synth a.txt -o alone.txt --size 5,1,1 -q").status, 3);
 }
 
 TEST_F(LabelCommand, AMeshIsTakenApartAndPutTogether) {
@@ -311,6 +338,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadRequest{"BadSide", "e.txt -o o.txt --side up=free", "--side up=free"},
         BadRequest{"NegativeWeight", "e.txt -o o.txt --weight 1=-2", "a weight is 0 or more"},
         BadRequest{"BadAxis", "e.txt -o o.txt --periodic xw", "--periodic xw"},
+        BadRequest{"FramesOfOne", "e.txt -o o.txt --frames 3", "--frames"},
+        BadRequest{"StillGif", "e.txt -o o.gif", "o.gif"},
+        BadRequest{"TwoImages", "e.txt -o o.txt --mirrored-x 1,2=3", "one label on each side"},
         BadRequest{"NoMask", "e.txt -o o.txt --mask no.png", "no.png"},
         BadRequest{"DeepPicture", "e.txt -o o.png", "a picture has one layer"},
         BadRequest{"UnknownOutput", "e.txt -o o.xyz", "o.xyz"},
