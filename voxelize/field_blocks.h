@@ -1,0 +1,74 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/origin.h"
+#include "core/progress.h"
+#include "sdf/distance_field.h"
+#include "voxelize/label_grid.h"
+
+namespace exemplar {
+
+/// How a distance field is cut into blocks that become labels.
+struct FieldBlocksOptions {
+  /// Samples a side of a block along x, y, z, 2..64; 0: found (`findBlockSize`).
+  Vec3i block{0, 0, 0};
+  /// The first whole block's first sample, 0..block - 1 each; none: the phase at which most blocks
+  /// are repeated, ties by the lowest.
+  std::optional<Vec3i> phase;
+  /// Blocks share a label when no two samples differ by more than this from those of the label's
+  /// first block, voxels, >= 0. Only the field near the surface counts: it is clamped to ±
+  /// `truncation` voxels first, > 0. Surfaces of neighbors that met in the example then meet within
+  /// twice the tolerance in a result.
+  double tolerance = 0.5;
+  double truncation = 2;
+};
+
+/// A distance field as a grid of labels, one a block: what model synthesis can learn from. The
+/// bridge between the two families.
+struct FieldBlocks {
+  LabelGrid grid;  ///< of whole blocks; what is left over at the sides is not part of it
+  Vec3i block{};
+  Vec3i phase{};
+  /// For each label the blocks (cells of `grid`) that share it, by rising index; the first is what
+  /// the others were compared with.
+  std::vector<std::vector<Vec3i>> members;
+  /// The member with the smallest sum of squared differences to the others (of truncated samples).
+  std::vector<Vec3i> medoid;
+  /// Of all blocks the share that is not the first of its label: 0: nothing repeats.
+  double repetition = 0;
+};
+
+/// For each axis the shortest step after which the field is most nearly itself, near its surface:
+/// the period of a regular example. Where nothing repeats, 8; never more than half the axis, and an
+/// axis of fewer than 16 samples is one block. O(samples × largest step).
+Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& options = {});
+
+/// Cuts a field into labelled blocks. Labels are numbered by their first block's index. Blocks are
+/// compared with the first block of each label so far, each comparison left early: O(blocks ×
+/// labels) at worst, for each phase that is tried (at most the sum of the block's sides, twice).
+/// Deterministic at any number of threads. Throws `InputError` for options out of range, a field
+/// smaller than a block, or more than 65,536 labels. An empty grid when cancelled.
+FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& options = {},
+                          const Progress& progress = {});
+
+/// What a grid of labels shows as a field again, and where each sample came from.
+struct PlacedBlocks {
+  DistanceField field;
+  Origins origins;
+};
+
+/// Puts blocks in place of their labels: each cell's is the member that agrees best with the
+/// samples across the faces it shares with cells already placed (lower x, y, z); where none is
+/// placed, the medoid. Ties go to the lowest member. O(cells × members × face). Throws `InputError`
+/// for a grid without cells or with labels that `blocks` does not know, or when memory does not
+/// suffice.
+PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks,
+                         const Array3D<Label>& labels);
+
+}  // namespace exemplar
