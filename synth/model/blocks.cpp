@@ -6,6 +6,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/parallel.h"
@@ -15,6 +16,8 @@
 
 namespace exemplar {
 namespace {
+
+constexpr std::uint32_t kAcceptStream = 0x4C424C32;  // whether a modified block is kept
 
 /// Where blocks begin along an axis: every half block, until one reaches the end.
 std::vector<int> beginnings(int n, int block, bool periodic) {
@@ -38,7 +41,8 @@ class BlockPass {
         labels_(std::move(start)),
         statistics_(statistics),
         progress_(progress),
-        parts_([this] { return NetworkPart(network_); }) {}
+        parts_([this] { return NetworkPart(network_); }),
+        accept_(problem.options().seed, kAcceptStream) {}
 
   Labelling run();
 
@@ -50,6 +54,7 @@ class BlockPass {
 
   void findBlocks();
   void findLevels();
+  bool accepted(int block, int round, const std::vector<Label>& fresh) const;
   Outcome modify(int block, int round, std::vector<Label>& fresh);
   void modifyLevel(const std::vector<int>& blocks, int round);
 
@@ -61,6 +66,7 @@ class BlockPass {
   ModelStatistics& statistics_;
   const Progress& progress_;
   tbb::enumerable_thread_specific<NetworkPart> parts_;
+  Random accept_;
 
   std::vector<std::vector<std::int32_t>> blocks_;  // cells, ascending
   std::vector<std::vector<int>> levels_;           // blocks that do not touch each other
@@ -140,6 +146,19 @@ void BlockPass::findLevels() {
   }
 }
 
+/// Metropolis: whether a block's new labels are kept (Merrell 2007, section 4.2).
+bool BlockPass::accepted(int block, int round, const std::vector<Label>& fresh) const {
+  if (!problem_.options().metropolis) return true;
+  double gain = 0;  // log of f(new) / f(old); labels of weight 0 do not occur
+  for (std::size_t c = 0; c < fresh.size(); ++c) {
+    const std::int32_t cell = blocks_[block][c];
+    gain +=
+        std::log(problem_.weight(cell, fresh[c])) - std::log(problem_.weight(cell, labels_[cell]));
+  }
+  return accept_.uniform(static_cast<std::uint64_t>(block), static_cast<std::uint32_t>(round)) <
+         std::exp(gain);
+}
+
 BlockPass::Outcome BlockPass::modify(int block, int round, std::vector<Label>& fresh) {
   Outcome outcome;
   const auto& cells = blocks_[block];
@@ -163,13 +182,18 @@ BlockPass::Outcome BlockPass::modify(int block, int round, std::vector<Label>& f
   // Numbers of draws: the blocks that cover a cell in a round are fewer than 32.
   const std::uint32_t first =
       (static_cast<std::uint32_t>(round) << 24) + (static_cast<std::uint32_t>(block % 32) << 19);
+  const LabelChooser::Placed placed = [&](int cell) {
+    const int c = part.local(cell);
+    if (c < 0) return static_cast<int>(labels_[cell]);
+    return catalog.decided(c) ? catalog.firstLabel(c) : -1;
+  };
   const auto choose = [&](int c, std::span<const LabelWord> set, int draw) {
-    return chooser_.choose(cells[c], set, first + static_cast<std::uint32_t>(draw));
+    return chooser_.choose(cells[c], set, first + static_cast<std::uint32_t>(draw), placed);
   };
   fresh.resize(count);
   const auto take = [&] {
     for (int c = 0; c < count; ++c) fresh[c] = static_cast<Label>(catalog.firstLabel(c));
-    outcome.changed = true;
+    outcome.changed = accepted(block, round, fresh);
   };
   std::int64_t contradictions = 0;
   if (labelInOrder(catalog, order, choose, contradictions)) {
@@ -193,7 +217,7 @@ BlockPass::Outcome BlockPass::modify(int block, int round, std::vector<Label>& f
   if (exact.solve({}, std::min(kConflicts, problem_.options().budget), progress_) ==
       ExactSolver::Outcome::Solved) {
     for (int c = 0; c < count; ++c) fresh[c] = static_cast<Label>(exact.label(c));
-    outcome.changed = true;
+    outcome.changed = accepted(block, round, fresh);
   }
   return outcome;
 }

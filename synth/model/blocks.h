@@ -17,8 +17,7 @@ namespace exemplar {
 /// throughout.
 ///
 /// Blocks that do not touch are modified in parallel; each sees exactly the blocks that come before
-/// it in a fixed order, so the bytes are the same at any number of threads. With an objective or
-/// limits on counts blocks are taken one after the other (section 3.5.3).
+/// it in a fixed order, so the bytes are the same at any number of threads.
 Labelling labelInBlocks(const ModelProblem& problem, const LabelSets& base,
                         const LabelChooser& chooser, std::vector<Label> start,
                         ModelStatistics& statistics, const Progress& progress);

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "synth/model/catalog.h"
 #include "synth/model/exact.h"
@@ -61,22 +63,35 @@ class DemandSet {
   std::vector<int> all_;
 };
 
-/// Leaves out of `demands`, in ever smaller pieces, what the test does not need.
-template <class Impossible>
-std::vector<int> smallest(std::vector<int> demands, const Progress& progress,
-                          const Impossible& impossible) {
+/// How many sets of demands are tried at most: with hundreds of pins that all have a part in the
+/// conflict the set may stay larger than need be.
+constexpr int kMostTests = 250;
+/// The exact solver's conflicts for one such set, and for all: leaving a demand in does no harm.
+constexpr std::int64_t kConflictsPerTest = 1000, kConflictsInAll = 30000;
+
+/// Leaves out of `demands`, in ever smaller pieces, what is not needed. `core(demands)` returns the
+/// ones that suffice to be impossible, in the same order, or nothing where they are not impossible.
+template <class Core>
+std::vector<int> smallest(std::vector<int> demands, const Progress& progress, const Core& core) {
+  int tests = 0;
   for (std::size_t piece = std::max<std::size_t>(1, demands.size() / 2);;
-       piece = std::max<std::size_t>(1, piece / 2)) {
+       piece = std::max<std::size_t>(1, std::min(piece, demands.size()) / 2)) {
     for (std::size_t at = 0; at < demands.size() && !progress.cancelled();) {
-      std::vector<int> fewer(demands);
+      if (++tests > kMostTests) return demands;
       const std::size_t end = std::min(demands.size(), at + piece);
+      std::vector<int> fewer(demands);
       fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(at),
                   fewer.begin() + static_cast<std::ptrdiff_t>(end));
-      if (impossible(fewer)) {
-        demands = std::move(fewer);
-      } else {
+      const auto left = core(fewer);
+      if (!left) {
         at = end;
+        continue;
       }
+      // A proof may do without some of the demands before `at` too, if pieces are large.
+      std::size_t before = 0;
+      for (const int d : *left) before += at > 0 && d <= demands[at - 1];
+      demands = *left;
+      at = before;
     }
     if (piece == 1) return demands;
   }
@@ -99,21 +114,32 @@ std::vector<int> smallestExactly(DemandSet& set) {
     for (int c = 0; c < network.cells; ++c) exact.addToDemand(number[i], c, allowed[c]);
   }
   std::vector<int> needed = set.all();
-  const auto impossible = [&](const std::vector<int>& demands) {
+  std::int64_t conflicts = problem.options().budget, spent = 0;
+  const auto core = [&](const std::vector<int>& demands) -> std::optional<std::vector<int>> {
     std::vector<int> on;
     for (const int d : demands) {
       const auto at = std::lower_bound(set.all().begin(), set.all().end(), d) - set.all().begin();
       on.push_back(number[at]);
     }
-    return exact.solve(on, problem.options().budget, set.progress()) ==
-           ExactSolver::Outcome::Impossible;
+    const auto outcome = spent > kConflictsInAll ? ExactSolver::Outcome::GaveUp
+                                                 : exact.solve(on, conflicts, set.progress());
+    conflicts = std::min(problem.options().budget, kConflictsPerTest);
+    if (outcome == ExactSolver::Outcome::GaveUp) spent += conflicts;
+    if (outcome != ExactSolver::Outcome::Impossible) return std::nullopt;
+    std::vector<int> used;
+    for (std::size_t i = 0; i < demands.size(); ++i) {
+      if (exact.used(on[i])) used.push_back(demands[i]);
+    }
+    return used;
   };
-  if (!impossible(needed)) return needed;
-  std::vector<int> used;
-  for (std::size_t i = 0; i < needed.size(); ++i) {
-    if (exact.used(number[i])) used.push_back(needed[i]);
+  auto used = core(needed);
+  if (!used) return needed;
+  // A proof from the demands of a proof often needs fewer of them still.
+  for (std::size_t before = needed.size() + 1; used->size() < before;) {
+    before = used->size();
+    if (const auto again = core(*used)) used = again;
   }
-  return smallest(std::move(used), set.progress(), impossible);
+  return smallest(*used, set.progress(), core);
 }
 
 std::string labelNames(std::span<const Label> labels, std::span<const LabelLook> looks) {
@@ -153,7 +179,10 @@ ModelConflict explainConflict(const ModelProblem& problem, std::span<const Label
   std::vector<int> needed;
   if (set.contradictory(set.all())) {
     needed = smallest(set.all(), progress,
-                      [&](const std::vector<int>& fewer) { return set.contradictory(fewer); });
+                      [&](const std::vector<int>& fewer) -> std::optional<std::vector<int>> {
+                        if (!set.contradictory(fewer)) return std::nullopt;
+                        return fewer;
+                      });
   } else {
     needed = smallestExactly(set);
   }

@@ -3,11 +3,14 @@
 
 #include "synth/model/origins.h"
 
+#include <algorithm>
 #include <array>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace exemplar {
 namespace {
@@ -56,7 +59,6 @@ Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples) 
   };
   std::unordered_map<Surroundings, Origin, SurroundingsHash> known;
   std::vector<std::vector<Place>> places;  // of a label: each surroundings that it has
-  std::vector<Array3D<std::uint8_t>> none;
   for (std::size_t e = 0; e < examples.size(); ++e) {
     const Vec3i n = examples[e].size();
     if (std::max({n.x, n.y, n.z}) > 32767) {
@@ -71,39 +73,65 @@ Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples) 
     }
   }
 
-  Origins origins(grid.size());
-  for (std::size_t i = 0; i < grid.cells.count(); ++i) {
-    const Vec3i p = grid.cells.ijk(i);
-    const Surroundings here = surroundings(grid, p);
-    const auto [entry, fresh] = known.try_emplace(here, Origin{});
-    if (fresh) {
-      if (here[0] >= places.size() || places[here[0]].empty()) {
-        throw InputError("no example has label " + std::to_string(here[0]));
-      }
-      int most = -1;
-      for (const Place& place : places[here[0]]) {
-        const int agree = agreement(here, place.around);
-        if (agree <= most) continue;
-        most = agree;
-        entry->second = place.first;
-      }
+  // The example's cell with the same label whose surroundings agree most.
+  const auto mostAlike = [&](const Surroundings& here) {
+    Origin best;
+    int most = -1;
+    for (const Place& place : places[here[0]]) {
+      const int agree = agreement(here, place.around);
+      if (agree <= most) continue;
+      most = agree;
+      best = place.first;
     }
-    Origin best = entry->second;
-    int most = agreement(here, surroundings(examples[best.example], best.cell()));
-    bool continued = false;
-    for (int side = 0; side < 6 && !continued; side += 2) {
-      const Vec3i q = p + step(side);
-      if (!grid.cells.contains(q)) continue;
-      const Origin& near = origins[q];
-      const LabelGrid& example = examples[near.example];
-      const Vec3i there = near.cell() - step(side);
-      if (!example.cells.contains(there) || example.cells[there] != here[0]) continue;
-      if (agreement(here, surroundings(example, there)) < most) continue;
-      best = Origin(there, near.example);
-      continued = true;
+    return best;
+  };
+  for (const Label b : grid.cells.values()) {
+    if (b >= places.size() || places[b].empty()) {
+      throw InputError("no example has label " + std::to_string(b));
     }
-    origins[p] = best;
   }
+
+  Origins origins(grid.size());
+  const Vec3i n = grid.size();
+  constexpr int kRows = 16;  // what goes on from a neighbor does so within these
+  parallelFor(0, static_cast<std::size_t>((n.y + kRows - 1) / kRows), 1,
+              [&](std::size_t begin, std::size_t end) {
+                for (std::size_t part = begin; part < end; ++part) {
+                  const int y0 = static_cast<int>(part) * kRows, y1 = std::min(n.y, y0 + kRows);
+                  std::unordered_map<Surroundings, Origin, SurroundingsHash> unknown;
+                  for (int k = 0; k < n.z; ++k) {
+                    for (int j = y0; j < y1; ++j) {
+                      for (int i = 0; i < n.x; ++i) {
+                        const Vec3i p{i, j, k};
+                        const Surroundings here = surroundings(grid, p);
+                        Origin best;
+                        if (const auto exact = known.find(here); exact != known.end()) {
+                          best = exact->second;
+                        } else {
+                          const auto [entry, fresh] = unknown.try_emplace(here, Origin{});
+                          if (fresh) entry->second = mostAlike(here);
+                          best = entry->second;
+                        }
+                        const int most =
+                            agreement(here, surroundings(examples[best.example], best.cell()));
+                        for (int side = 0; side < 6; side += 2) {
+                          const Vec3i q = p + step(side);
+                          if (q.x < 0 || q.y < y0 || q.z < 0) continue;
+                          const Origin& near = origins[q];
+                          const LabelGrid& example = examples[near.example];
+                          const Vec3i there = near.cell() - step(side);
+                          if (!example.cells.contains(there) || example.cells[there] != here[0])
+                            continue;
+                          if (agreement(here, surroundings(example, there)) < most) continue;
+                          best = Origin(there, near.example);
+                          break;
+                        }
+                        origins[p] = best;
+                      }
+                    }
+                  }
+                }
+              });
   return origins;
 }
 

@@ -11,6 +11,7 @@
 #include "synth/model/catalog.h"
 #include "synth/model/choose.h"
 #include "synth/model/explain.h"
+#include "synth/model/limits.h"
 #include "synth/model/origins.h"
 #include "synth/model/problem.h"
 #include "synth/model/start.h"
@@ -60,7 +61,9 @@ std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& exa
 
 Labelling label(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                 ModelStatistics& statistics, const Progress& progress) {
-  const ModelMethod method = problem.options().method;
+  // Metropolis needs something to compare with.
+  const ModelMethod method =
+      problem.options().metropolis ? ModelMethod::Blocks : problem.options().method;
   std::optional<std::vector<Label>> start;
   if (method != ModelMethod::Blocks) {
     Labelling whole = labelWhole(problem, base, chooser, statistics, progress);
@@ -101,8 +104,12 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
     }
   }
   Labelling labelling{ModelStatus::Impossible, {}};
-  const LabelChooser chooser(problem);
+  const LabelChooser chooser(problem, examples);
   if (possible) labelling = label(problem, base, chooser, result.statistics, progress);
+  if (labelling.status == ModelStatus::Complete) {
+    labelling = meetLimits(problem, base, chooser, std::move(labelling.labels), result.statistics,
+                           progress);
+  }
 
   result.status = labelling.status;
   if (result.status == ModelStatus::Impossible) {

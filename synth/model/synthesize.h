@@ -95,12 +95,17 @@ struct ModelOptions {
                                 ///< and gets label 0; without cells: no holes
   std::vector<double> weights;  ///< one a label, >= 0; empty: all 1; 0: the label does not occur
   std::vector<WeightMap> weightMaps;
+  /// Blocks only: weights and maps do not bias the choice of labels; a modified block is kept with
+  /// the chance min(1, f(new) / f(old)), f being the product of the weights of all labels in place
+  /// (Metropolis; 2007, section 4.2).
+  bool metropolis = false;
   std::vector<CountLimit> counts;
   /// Sets of labels whose cells, all in all, form one piece joined through faces.
   std::vector<std::vector<Label>> connected;
   ModelSymmetry symmetry;
 
-  /// Conflicts that the exact solver may meet in one region before it gives up, >= 1.
+  /// Conflicts that the exact solver may meet over the whole grid before it gives up, >= 1; also
+  /// how many regions are tried for limits on counts and for connectedness.
   std::int64_t budget = 200000;
 };
 
@@ -110,7 +115,6 @@ struct ModelOptions {
 struct ModelConflict {
   std::vector<int> pins;    ///< indices into `ModelOptions::pins`
   std::vector<Side> sides;  ///< sides with a rule
-  bool counts = false;      ///< a limit on counts, or connectedness, is part of it
   std::string text;         ///< one sentence, for people
 };
 
@@ -147,7 +151,8 @@ struct ModelResult {
 /// cell is left without any, a region around it is taken back and labelled anew, by search with
 /// backjumping and then by an exact solver, which finds a labelling or proves that there is none.
 /// So a request is met, or shown to be impossible, or the budget is spent; a result never breaks
-/// the example's rules.
+/// the example's rules. Limits on counts and connectedness are met by labelling regions anew where
+/// they are broken; where that does not succeed the outcome is Unfinished, not a proof.
 ///
 /// `examples` are those that `adjacency` was found in (they share one numbering of labels); looks,
 /// cell size and origins come from them. The same bytes at any number of threads; `Blocks` runs

@@ -17,6 +17,9 @@ namespace {
 
 /// How far a region reaches that is taken back, in cells: the first tries are small.
 constexpr std::array<int, 8> kReach{2, 3, 4, 6, 8, 12, 16, 24};
+/// At last everything is taken back, unless that is more labels than the exact solver could hold.
+constexpr int kEverywhere = 1 << 20;
+constexpr std::int64_t kMostLabelsAtOnce = 4'000'000;
 /// How far around it cells that are not labelled yet are looked at too.
 constexpr int kMargin = 3;
 
@@ -179,7 +182,11 @@ ModelStatus WholePass::repairWithin(int cell, int reach) {
   for (int c = 0; c < count; ++c) {
     exact.prefer(c, chooser_.choose(region_[c], domains[c], ++draws_));
   }
-  const auto outcome = exact.solve({}, problem_.options().budget, progress_);
+  // A region that is hard is left for a larger one, which is freer, long before the budget is
+  // spent.
+  const std::int64_t budget = problem_.options().budget;
+  const auto outcome =
+      exact.solve({}, everything ? budget : std::min<std::int64_t>(budget, 2000), progress_);
   if (outcome == ExactSolver::Outcome::Solved) {
     for (int c = 0; c < count; ++c) labels[c] = static_cast<Label>(exact.label(c));
     if (adopt(labels, cell)) return ModelStatus::Complete;
@@ -209,11 +216,19 @@ ModelStatus WholePass::repair(int cell) {
       return status;
     }
   }
-  return ModelStatus::Unfinished;
+  std::int64_t labels = 0;
+  for (int c = 0; c < network_.cells; ++c) labels += labelsIn(base_[c]);
+  if (labels > kMostLabelsAtOnce) return ModelStatus::Unfinished;
+  ++statistics_.repairs;
+  const ModelStatus status = repairWithin(cell, kEverywhere);
+  return progress_.cancelled() ? ModelStatus::Cancelled : status;
 }
 
 Labelling WholePass::run() {
   Labelling result;
+  const LabelChooser::Placed placed = [this](int cell) {
+    return catalog_.decided(cell) ? catalog_.firstLabel(cell) : -1;
+  };
   for (int c = 0; c < network_.cells; ++c) {
     if (c % 4096 == 0) {
       progress_.report("labelling", static_cast<double>(c) / network_.cells);
@@ -225,7 +240,7 @@ Labelling WholePass::run() {
     if (catalog_.decided(c)) continue;
     const std::uint32_t first = draws_;
     const auto choose = [&](int cell, std::span<const LabelWord> set, int draw) {
-      return chooser_.choose(cell, set, first + static_cast<std::uint32_t>(draw));
+      return chooser_.choose(cell, set, first + static_cast<std::uint32_t>(draw), placed);
     };
     const std::int32_t one[1] = {c};
     if (labelInOrder(catalog_, one, choose, statistics_.contradictions)) continue;

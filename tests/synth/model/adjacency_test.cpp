@@ -1,0 +1,81 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "voxelize/adjacency.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "synth/model/examples.h"
+
+namespace exemplar {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(FindAdjacency, CountsOrderedPairsAlongEachAxis) {
+  const LabelGrid g = test::drawn({{"ab", "aa"}, {"bb", "ba"}});  // a is 1, b is 2
+  const Adjacency a = findAdjacency(g);
+  ASSERT_EQ(a.rules.size(), 3u);
+  EXPECT_EQ(a.labelCount, 3);
+  EXPECT_EQ(a.rules[0].offset, (CellOffset{1, 0, 0, 0}));
+  EXPECT_THAT(a.rules[0].pairs, ElementsAre(LabelPair{1, 1, 1}, LabelPair{1, 2, 1},
+                                            LabelPair{2, 1, 1}, LabelPair{2, 2, 1}));
+  EXPECT_EQ(a.rules[1].count(1, 1), 1);
+  EXPECT_EQ(a.rules[1].count(2, 1), 2);
+  EXPECT_EQ(a.rules[1].count(1, 2), 0);
+  EXPECT_EQ(a.rules[2].count(1, 2), 2);
+  EXPECT_FALSE(a.rules[2].allows(2, 1));
+  EXPECT_THAT(a.frequency, ElementsAre(0, 4, 4));
+  EXPECT_THAT(a.side(Side::MinZ), ElementsAre(1, 2));
+  EXPECT_THAT(a.side(Side::MaxX), ElementsAre(1, 2));
+}
+
+TEST(FindAdjacency, GoesAroundWhereTheExampleIsPeriodic) {
+  const LabelGrid g = test::drawnFlat({"abc"});
+  EXPECT_FALSE(findAdjacency(g).rules[0].allows(3, 1));
+  AdjacencyOptions o;
+  o.periodic[0] = true;
+  const Adjacency a = findAdjacency(g, o);
+  EXPECT_TRUE(a.rules[0].allows(3, 1));
+  EXPECT_TRUE(findAdjacency(g).rules[1].pairs.empty());
+}
+
+TEST(FindAdjacency, CountsFurtherOffsetsFramesAndSeveralExamples) {
+  AdjacencyOptions o;
+  o.offsets = {{1, -1, 0, 0}, {2, 0, 0, 0}};
+  const LabelGrid g = test::drawnFlat({"abc", "cab"});
+  const Adjacency a = findAdjacency(g, o);
+  ASSERT_EQ(a.rules.size(), 5u);
+  // The lower row is numbered first: c is 1, a is 2, b is 3.
+  EXPECT_EQ(a.rules[3].count(2, 2), 1);  // down to the right
+  EXPECT_EQ(a.rules[4].count(1, 3), 1);
+
+  const std::vector<LabelGrid> two{g, g};
+  EXPECT_EQ(findAdjacency(two, {}).rules[0].count(2, 3), 4);
+  AdjacencyOptions frames;
+  frames.frames = true;
+  const Adjacency f = findAdjacency(two, frames);
+  ASSERT_EQ(f.rules.size(), 4u);
+  EXPECT_EQ(f.rules[3].count(1, 1), 2);
+  EXPECT_FALSE(f.rules[3].allows(1, 2));
+}
+
+TEST(FindAdjacency, TurnsDownWhatIsNoExample) {
+  EXPECT_THROW((void)findAdjacency(std::span<const LabelGrid>{}), InputError);
+  EXPECT_THROW((void)findAdjacency(LabelGrid{}), InputError);
+  LabelGrid g = test::drawnFlat({"ab"});
+  AdjacencyOptions o;
+  o.offsets = {{0, 0, 0, 0}};
+  EXPECT_THROW((void)findAdjacency(g, o), InputError);
+  o.offsets = {{-1, 0, 0, 0}};
+  EXPECT_THROW((void)findAdjacency(g, o), InputError);
+  o.offsets = {{1, 1, 0, 1}};
+  EXPECT_THROW((void)findAdjacency(g, o), InputError);
+  g.cells(0, 0, 0) = 9;
+  EXPECT_THROW((void)findAdjacency(g), InputError);
+}
+
+}  // namespace
+}  // namespace exemplar

@@ -1,0 +1,527 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/model/synthesize.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <set>
+
+#include "core/error.h"
+#include "synth/model/examples.h"
+#include "synth/model/networks.h"
+#include "voxelize/violations.h"
+
+namespace exemplar {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+struct NamedExample {
+  const char* name;
+  LabelGrid (*make)();
+};
+LabelGrid fallibleFigure35() { return test::figure35(); }
+
+class EachExample : public testing::TestWithParam<NamedExample> {};
+
+TEST_P(EachExample, GivesOnlyPairsOfTheExample) {
+  const LabelGrid example = GetParam().make();
+  const Adjacency adjacency = findAdjacency(example);
+  const int height = example.size().z == 1 ? 1 : 8;
+  for (const ModelMethod method : {ModelMethod::Whole, ModelMethod::Blocks}) {
+    for (const LabelChoice choice : {LabelChoice::Frequency, LabelChoice::Uniform}) {
+      for (int seed = 0; seed < 3; ++seed) {
+        ModelOptions o;
+        o.size = {17, 14, height};
+        o.seed = seed;
+        o.method = method;
+        o.choice = choice;
+        o.block = {6, 7, 5};
+        const ModelResult r = synthesizeModel(std::span(&example, 1), adjacency, o);
+        ASSERT_EQ(r.status, ModelStatus::Complete) << seed << " " << r.conflict.text;
+        const AdjacencyViolations v = findViolations(r.grid(), example);
+        EXPECT_EQ(v.count, 0) << seed;
+        EXPECT_GT(v.pairs, 400);
+        // The outermost layers show what the example's do.
+        for (std::size_t i = 0; i < r.grid().cells.count(); ++i) {
+          const Vec3i p = r.grid().cells.ijk(i);
+          for (int s = 0; s < 6; ++s) {
+            if (p[s / 2] != (s % 2 ? o.size[s / 2] - 1 : 0)) continue;
+            const auto& side = adjacency.sides[s];
+            EXPECT_TRUE(std::binary_search(side.begin(), side.end(), r.grid().cells[p]));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(EachExample, IsTheSameAtAnyNumberOfThreads) {
+  const LabelGrid example = GetParam().make();
+  const int height = example.size().z == 1 ? 1 : 10;
+  for (const ModelMethod method : {ModelMethod::Whole, ModelMethod::Blocks}) {
+    ModelOptions o;
+    o.size = {25, 22, height};
+    o.seed = 5;
+    o.method = method;
+    o.choice = LabelChoice::Uniform;
+    o.block = {8, 8, 10};
+    ModelResult one, eight;
+    tbb::task_arena(1).execute([&] { one = synthesizeModel(example, o); });
+    tbb::task_arena(8).execute([&] { eight = synthesizeModel(example, o); });
+    ASSERT_EQ(one.status, ModelStatus::Complete);
+    ASSERT_EQ(eight.status, ModelStatus::Complete);
+    EXPECT_EQ(one.grid().cells, eight.grid().cells);
+    EXPECT_EQ(one.origins, eight.origins);
+    o.seed = 6;
+    EXPECT_NE(one.grid().cells, synthesizeModel(example, o).grid().cells);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EachExample,
+                         testing::Values(NamedExample{"Figure35", fallibleFigure35},
+                                         NamedExample{"Figure36", test::figure36},
+                                         NamedExample{"Canyon", test::canyon},
+                                         NamedExample{"City", test::city},
+                                         NamedExample{"Gadgets", test::gadgets},
+                                         NamedExample{"Parliament", test::parliament},
+                                         NamedExample{"Escheresque", test::escheresque}),
+                         [](const auto& example) { return example.param.name; });
+
+/// How many of some seeds plain propagation brings to an end.
+int plainSuccesses(const LabelGrid& example, const ModelOptions& o, int seeds) {
+  const Adjacency a = findAdjacency(example);
+  const ModelProblem problem(a, o);
+  int count = 0;
+  for (int seed = 0; seed < seeds; ++seed) count += test::plainPass(problem, seed);
+  return count;
+}
+
+TEST(SynthesizeModel, NeverFailsOnFigure35) {
+  const LabelGrid example = test::figure35();
+  ModelOptions o;
+  o.size = {40, 40, 1};
+  o.choice = LabelChoice::Uniform;
+  EXPECT_LT(plainSuccesses(example, o, 20), 2);
+  for (int seed = 0; seed < 20; ++seed) {
+    o.seed = seed;
+    const ModelResult r = synthesizeModel(example, o);
+    ASSERT_EQ(r.status, ModelStatus::Complete) << seed;
+    EXPECT_EQ(findViolations(r.grid(), example).count, 0);
+    EXPECT_GT(r.statistics.contradictions, 0);
+  }
+}
+
+TEST(SynthesizeModel, PlainPropagationSucceedsOnTheInfallibleTwin) {
+  // Thesis, section 3.3.8: one cell's own label makes figure 3.5 infallible.
+  ModelOptions o;
+  o.size = {30, 30, 1};
+  o.choice = LabelChoice::Uniform;
+  for (SideRule& s : o.sides) s.kind = SideRule::Kind::Free;
+  EXPECT_EQ(plainSuccesses(test::figure35(true), o, 20), 20);
+  EXPECT_LT(plainSuccesses(test::figure35(false), o, 20), 20);
+}
+
+int labelNamed(const LabelGrid& grid, const std::string& name) {
+  for (int b = 0; b < grid.labelCount(); ++b) {
+    if (grid.labels[b].name == name) return b;
+  }
+  ADD_FAILURE() << "no label " << name;
+  return 0;
+}
+
+TEST(SynthesizeModel, ProvesWhatFigure35SaysPropagationMisses) {
+  // A '1' two cells above a '2' is in the catalog C but not in C*.
+  const LabelGrid example = test::figure35();
+  const Label one = static_cast<Label>(labelNamed(example, "1"));
+  const Label two = static_cast<Label>(labelNamed(example, "2"));
+  ModelOptions o;
+  o.size = {12, 12, 1};
+  o.pins = {{{9, 9, 0}, {0}}, {{4, 3, 0}, {two}}};
+  const Adjacency a = findAdjacency(example);
+  const ModelProblem problem(a, o);
+  Catalog catalog(problem.network());
+  const LabelSets start = problem.domains(problem.demands());
+  for (int c = 0; c < problem.network().cells; ++c) catalog.setDomain(c, start[c]);
+  ASSERT_TRUE(catalog.propagateAll());
+  const int above = problem.cell(problem.position({4, 5, 0}));
+  EXPECT_TRUE(containsLabel(catalog.domain(above), one));
+
+  o.pins.push_back({{4, 5, 0}, {one}});
+  const ModelResult r = synthesizeModel(example, o);
+  ASSERT_EQ(r.status, ModelStatus::Impossible);
+  EXPECT_TRUE(r.frames.empty());
+  EXPECT_THAT(r.conflict.pins, ElementsAre(1, 2));
+  EXPECT_TRUE(r.conflict.sides.empty());
+  EXPECT_THAT(r.conflict.text, HasSubstr("cell (4, 3, 0) must be '2'"));
+  EXPECT_THAT(r.conflict.text, HasSubstr("cell (4, 5, 0) must be '1'"));
+
+  o.pins[2].cell = {4, 8, 0};
+  EXPECT_EQ(synthesizeModel(example, o).status, ModelStatus::Complete);
+}
+
+TEST(SynthesizeModel, ProvesThatThreeEndsDoNotPair) {
+  // Thesis, figure 3.6: ends of paths come in pairs, and nothing near any of them says so.
+  const LabelGrid example = test::figure36();
+  std::vector<Label> ends;
+  for (const char* name : {"e", "n", "w", "s"}) {
+    ends.push_back(static_cast<Label>(labelNamed(example, name)));
+  }
+  ModelOptions o;
+  o.size = {7, 7, 1};
+  WeightMap elsewhere{ends, Array3D<float>(o.size, 0.f)};
+  for (const Vec3i p : {Vec3i{1, 1, 0}, Vec3i{5, 2, 0}, Vec3i{2, 4, 0}}) {
+    elsewhere.weight[p] = 1;
+    o.pins.push_back({p, ends});
+  }
+  o.weightMaps.push_back(elsewhere);
+  const Adjacency a = findAdjacency(example);
+  const ModelProblem problem(a, o);
+  Catalog catalog(problem.network());
+  const LabelSets start = problem.domains(problem.demands());
+  for (int c = 0; c < problem.network().cells; ++c) catalog.setDomain(c, start[c]);
+  EXPECT_TRUE(catalog.propagateAll()) << "the catalog is not empty";
+  const ModelResult three = synthesizeModel(example, o);
+  ASSERT_EQ(three.status, ModelStatus::Impossible);
+  EXPECT_THAT(three.conflict.pins, ElementsAre(0, 1, 2));
+  EXPECT_EQ(three.conflict.sides.size(), 4u);
+
+  o.weightMaps[0].weight(5, 5, 0) = 1;
+  o.pins.push_back({{5, 5, 0}, ends});
+  const ModelResult four = synthesizeModel(example, o);
+  ASSERT_EQ(four.status, ModelStatus::Complete);
+  EXPECT_EQ(findViolations(four.grid(), example).count, 0);
+}
+
+TEST(SynthesizeModel, HonoursPinsMasksAndWeights) {
+  const LabelGrid example = test::figure36();
+  ModelOptions o;
+  o.size = {20, 20, 1};
+  o.choice = LabelChoice::Uniform;
+  o.pins = {{{5, 5, 0}, {static_cast<Label>(labelNamed(example, "ew"))}},
+            {{15, 9, 0}, {static_cast<Label>(labelNamed(example, "n"))}}};
+  o.mask = Array3D<std::uint8_t>(o.size, 1);
+  for (int i = 8; i < 12; ++i) o.mask(i, i, 0) = 0;
+  o.weights.assign(example.labelCount(), 1);
+  const Label banned = static_cast<Label>(labelNamed(example, "es"));
+  o.weights[banned] = 0;
+  for (const ModelMethod method : {ModelMethod::Whole, ModelMethod::Blocks}) {
+    o.method = method;
+    const ModelResult r = synthesizeModel(example, o);
+    ASSERT_EQ(r.status, ModelStatus::Complete);
+    for (const PinnedCell& p : o.pins) EXPECT_EQ(r.grid().cells[p.cell], p.labels[0]);
+    for (const Label b : r.grid().cells.values()) EXPECT_NE(b, banned);
+    for (int i = 8; i < 12; ++i) EXPECT_EQ(r.grid().cells(i, i, 0), 0);
+    ViolationOptions v;
+    v.mask = &o.mask;
+    EXPECT_EQ(findViolations(r.grid(), example, v).count, 0);
+  }
+}
+
+TEST(SynthesizeModel, PutsLabelsWhereAWeightMapWantsThem) {
+  const LabelGrid example = test::figure36();
+  ModelOptions o;
+  o.size = {30, 30, 1};
+  WeightMap empty{{0}, Array3D<float>(o.size, 1.f)};
+  for (int i = 0; i < 30; ++i) {
+    for (int j = 0; j < 30; ++j) empty.weight(i, j, 0) = i < 15 ? 100.f : 0.01f;
+  }
+  o.weightMaps.push_back(empty);
+  for (const ModelMethod method : {ModelMethod::Whole, ModelMethod::Blocks}) {
+    o.method = method;
+    const ModelResult r = synthesizeModel(example, o);
+    ASSERT_EQ(r.status, ModelStatus::Complete);
+    int left = 0, right = 0;
+    for (int i = 1; i < 29; ++i) {
+      for (int j = 1; j < 29; ++j) (i < 15 ? left : right) += r.grid().cells(i, j, 0) != 0;
+    }
+    EXPECT_GT(right, 3 * left);
+  }
+}
+
+TEST(SynthesizeModel, RepeatsAlongPeriodicAxes) {
+  const LabelGrid example = test::figure36();
+  ModelOptions o;
+  o.size = {13, 11, 1};
+  o.periodic = {true, true, false};
+  o.choice = LabelChoice::Uniform;
+  ViolationOptions v;
+  v.periodic = o.periodic;
+  for (const ModelMethod method : {ModelMethod::Whole, ModelMethod::Blocks}) {
+    for (int seed = 0; seed < 5; ++seed) {
+      o.method = method;
+      o.seed = seed;
+      const ModelResult r = synthesizeModel(example, o);
+      ASSERT_EQ(r.status, ModelStatus::Complete);
+      EXPECT_EQ(findViolations(r.grid(), example, v).count, 0);
+    }
+  }
+}
+
+TEST(SynthesizeModel, JoinsFarEnds) {
+  // Six ends far apart and no others: three paths must find their ways.
+  const LabelGrid example = test::figure36();
+  std::vector<Label> ends;
+  for (const char* name : {"e", "n", "w", "s"}) {
+    ends.push_back(static_cast<Label>(labelNamed(example, name)));
+  }
+  ModelOptions o;
+  o.size = {24, 24, 1};
+  o.choice = LabelChoice::Uniform;
+  WeightMap elsewhere{ends, Array3D<float>(o.size, 0.f)};
+  for (const Vec3i p : {Vec3i{2, 3, 0}, Vec3i{3, 19, 0}, Vec3i{9, 11, 0}, Vec3i{14, 4, 0},
+                        Vec3i{21, 20, 0}, Vec3i{20, 7, 0}}) {
+    elsewhere.weight[p] = 1;
+    o.pins.push_back({p, ends});
+  }
+  o.weightMaps.push_back(elsewhere);
+  for (int seed = 0; seed < 10; ++seed) {
+    o.seed = seed;
+    const ModelResult r = synthesizeModel(example, o);
+    ASSERT_EQ(r.status, ModelStatus::Complete) << seed;
+    EXPECT_EQ(findViolations(r.grid(), example).count, 0);
+  }
+}
+
+/// Where a path label's exits go after a mirroring across x or y or a quarter turn.
+std::vector<Label> mapped(const LabelGrid& example, const std::string& from,
+                          const std::string& to) {
+  std::vector<Label> table;
+  for (const LabelLook& look : example.labels) {
+    std::string name = look.name == "." ? "" : look.name;
+    for (char& c : name) {
+      if (const auto at = from.find(c); at != std::string::npos) c = to[at];
+    }
+    std::sort(name.begin(), name.end());
+    table.push_back(static_cast<Label>(labelNamed(example, name.empty() ? "." : name)));
+  }
+  return table;
+}
+
+TEST(SynthesizeModel, IsSymmetricWhereAsked) {
+  const LabelGrid example = test::figure36();
+  const auto mirroredX = mapped(example, "ew", "we");
+  const auto mirroredY = mapped(example, "ns", "sn");
+  const auto turned = mapped(example, "enws", "nwse");
+  for (const int n : {12, 13}) {
+    for (int kind = 0; kind < 5; ++kind) {
+      ModelOptions o;
+      o.size = {n, n, 1};
+      o.choice = LabelChoice::Uniform;
+      o.symmetry.mirroredX = mirroredX;
+      o.symmetry.mirroredY = mirroredY;
+      o.symmetry.turned = turned;
+      o.symmetry.mirrorX = kind == 0 || kind == 3;
+      o.symmetry.mirrorY = kind == 3;
+      o.symmetry.turns = kind == 1 ? 2 : kind == 2 ? 4 : 1;
+      if (kind == 4) o.symmetry.copies = {n == 12 ? 3 : 1, n == 12 ? 2 : 13, 1};
+      const ModelResult r = synthesizeModel(example, o);
+      ASSERT_EQ(r.status, ModelStatus::Complete) << kind;
+      const Array3D<Label>& c = r.grid().cells;
+      EXPECT_EQ(findViolations(r.grid(), example).count, 0) << kind << " " << n;
+      int paths = 0;
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+          paths += c(i, j, 0) != 0;
+          if (o.symmetry.mirrorX) {
+            EXPECT_EQ(c(n - 1 - i, j, 0), mirroredX[c(i, j, 0)]);
+          }
+          if (o.symmetry.mirrorY) {
+            EXPECT_EQ(c(i, n - 1 - j, 0), mirroredY[c(i, j, 0)]);
+          }
+          if (kind == 2) {
+            EXPECT_EQ(c(n - 1 - j, i, 0), turned[c(i, j, 0)]);
+          }
+          if (kind == 1) {
+            EXPECT_EQ(c(n - 1 - i, n - 1 - j, 0), turned[turned[c(i, j, 0)]]);
+          }
+          if (kind == 4) {
+            const Vec3i part{n / o.symmetry.copies.x, n / o.symmetry.copies.y, 1};
+            EXPECT_EQ(c(i, j, 0), c(i % part.x, j % part.y, 0));
+          }
+        }
+      }
+      // Rows that are all alike can only be empty.
+      if (kind != 4 || n == 12) {
+        EXPECT_GT(paths, 0) << kind;
+      }
+    }
+  }
+}
+
+/// The rolling ball of the thesis' figure 3.27: empty, leaving to the right, moving within, coming
+/// in from the left; one row of cells that changes over time.
+std::vector<LabelGrid> rollingBall() {
+  // Frame f: the ball crosses cell f / 2 from the left edge on, then leaves it for the next.
+  std::vector<LabelGrid> frames;
+  for (int f = 0; f < 8; ++f) {
+    LabelGrid g;
+    g.cells = Array3D<Label>({6, 1, 1}, 0);
+    g.labels.resize(4);
+    const int cell = f / 2 + 1;
+    if (f % 2 == 0) {
+      g.cells(cell, 0, 0) = 1;  // moves from the left edge to the right
+    } else {
+      g.cells(cell, 0, 0) = 2;  // goes out at the right
+      g.cells(cell + 1, 0, 0) = 3;
+    }
+    frames.push_back(g);
+  }
+  return frames;
+}
+
+TEST(SynthesizeModel, MakesModelsThatChangeOverTime) {
+  const std::vector<LabelGrid> example = rollingBall();
+  AdjacencyOptions frames;
+  frames.frames = true;
+  const Adjacency a = findAdjacency(example, frames);
+  ModelOptions o;
+  o.size = {40, 1, 1};
+  o.frames = 30;
+  o.choice = LabelChoice::Uniform;
+  for (SideRule& s : o.sides) s.kind = SideRule::Kind::Free;
+  o.pins = {{{3, 0, 0}, {1}, 2}};
+  const ModelResult r = synthesizeModel(example, a, o);
+  ASSERT_EQ(r.status, ModelStatus::Complete) << r.conflict.text;
+  ASSERT_EQ(r.frames.size(), 30u);
+  ViolationOptions v;
+  v.adjacency = frames;
+  EXPECT_EQ(findViolations(r.frames, example, v).count, 0);
+  // A ball that moves in a cell goes out of it in the next frame and is in the next cell after.
+  int balls = 0;
+  for (int f = 0; f + 2 < o.frames; ++f) {
+    for (int i = 0; i + 1 < o.size.x; ++i) {
+      if (r.frames[f].cells(i, 0, 0) != 1) continue;
+      ++balls;
+      EXPECT_EQ(r.frames[f + 1].cells(i, 0, 0), 2);
+      EXPECT_EQ(r.frames[f + 1].cells(i + 1, 0, 0), 3);
+      EXPECT_EQ(r.frames[f + 2].cells(i + 1, 0, 0), 1);
+    }
+  }
+  EXPECT_GT(balls, 5);
+}
+
+TEST(SynthesizeModel, KeepsRulesAtFurtherOffsets) {
+  // Three colours on a hexagonal grid, no two alike side by side: with the axis (1, -1) there are
+  // just six such patterns, without it there are many.
+  LabelGrid example;
+  example.cells = Array3D<Label>({9, 9, 1});
+  example.labels.resize(3);
+  for (int i = 0; i < 9; ++i) {
+    for (int j = 0; j < 9; ++j) example.cells(i, j, 0) = static_cast<Label>((i + 2 * j) % 3);
+  }
+  AdjacencyOptions hexagonal;
+  hexagonal.offsets = {{1, -1, 0, 0}, {2, 0, 0, 0}};
+  const Adjacency a = findAdjacency(example, hexagonal);
+  ASSERT_EQ(a.rules.size(), 5u);
+  ModelOptions o;
+  o.size = {15, 12, 1};
+  ViolationOptions v;
+  v.adjacency = hexagonal;
+  const ModelResult r = synthesizeModel(std::span(&example, 1), a, o);
+  ASSERT_EQ(r.status, ModelStatus::Complete);
+  EXPECT_EQ(findViolations(r.grid(), example, v).count, 0);
+  for (int i = 0; i < 15; ++i) {
+    for (int j = 0; j < 12; ++j) {
+      EXPECT_EQ(r.grid().cells(i, j, 0), (r.grid().cells(0, 0, 0) + i + 2 * j) % 3);
+    }
+  }
+}
+
+TEST(SynthesizeModel, OriginsHaveTheLabelAndFollowTheExample) {
+  const LabelGrid example = test::parliament();
+  ModelOptions o;
+  o.size = {30, 30, 10};
+  const ModelResult r = synthesizeModel(example, o);
+  ASSERT_EQ(r.status, ModelStatus::Complete);
+  ASSERT_EQ(r.origins.size(), 1u);
+  int together = 0, pairs = 0;
+  for (std::size_t i = 0; i < r.grid().cells.count(); ++i) {
+    const Vec3i p = r.grid().cells.ijk(i);
+    const Origin from = r.origins[0][p];
+    ASSERT_TRUE(example.cells.contains(from.cell()));
+    ASSERT_EQ(example.cells[from.cell()], r.grid().cells[p]);
+    if (p.x == 0) continue;
+    const Origin left = r.origins[0][p - Vec3i{1, 0, 0}];
+    ++pairs;
+    together += left.cell() + Vec3i{1, 0, 0} == from.cell();
+  }
+  EXPECT_GT(together, pairs / 2);
+}
+
+TEST(SynthesizeModel, TurnsDownWhatCannotBeHonoured) {
+  const LabelGrid example = test::figure36();
+  const auto message = [&](const auto& change) -> std::string {
+    ModelOptions o;
+    o.size = {8, 8, 1};
+    change(o);
+    try {
+      (void)synthesizeModel(example, o);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "nothing";
+  };
+  EXPECT_THAT(message([](ModelOptions& o) { o.size = {8, 0, 1}; }), HasSubstr("not positive"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.size.z = 3; }), HasSubstr("one cell thick along z"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.frames = 2; }), HasSubstr("several frames"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.pins = {{{8, 0, 0}, {0}}}; }), HasSubstr("pin 1"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.pins = {{{1, 0, 0}, {999}}};
+              }),
+              HasSubstr("label 999"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.pins = {{{1, 0, 0}, {}}}; }), HasSubstr("no label"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.weights = {1, 2}; }), HasSubstr("2 weights"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.weightMaps = {{{0}, Array3D<float>({3, 3, 1}, 1.f)}};
+              }),
+              HasSubstr("3 x 3 x 1"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.mask = Array3D<std::uint8_t>({2, 2, 1}, 1);
+              }),
+              HasSubstr("mask"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.block = {1, 4, 4}; }), HasSubstr("block"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.symmetry.turns = 3; }), HasSubstr("1, 2 or 4"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.symmetry.copies = {3, 1, 1};
+              }),
+              HasSubstr("do not divide"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.size = {100000, 100000, 1};
+              }),
+              HasSubstr("make it smaller"));
+}
+
+TEST(SynthesizeModel, SaysWhyAnExampleThatNeverRepeatsGivesNothing) {
+  const LabelGrid example = test::drawnFlat({"abc", "def", "ghi"});
+  ModelOptions o;
+  o.size = {5, 5, 1};
+  for (SideRule& s : o.sides) s.kind = SideRule::Kind::Free;
+  const ModelResult r = synthesizeModel(example, o);
+  EXPECT_EQ(r.status, ModelStatus::Impossible);
+  EXPECT_THAT(r.conflict.text, HasSubstr("no grid of 5 x 5 x 1 cells"));
+  o.size = {3, 3, 1};
+  EXPECT_EQ(synthesizeModel(example, o).grid().cells, example.cells);
+
+  LabelGrid one;
+  one.cells = Array3D<Label>({1, 1, 1}, 0);
+  one.labels.resize(1);
+  o.size = {1, 1, 1};
+  EXPECT_EQ(synthesizeModel(one, o).status, ModelStatus::Complete);
+}
+
+TEST(SynthesizeModel, EndsCancelledWhenAsked) {
+  const std::atomic<bool> stop = true;
+  ModelOptions o;
+  o.size = {30, 30, 8};
+  const ModelResult r = synthesizeModel(test::city(), o, Progress({}, &stop));
+  EXPECT_EQ(r.status, ModelStatus::Cancelled);
+  EXPECT_TRUE(r.frames.empty());
+}
+
+}  // namespace
+}  // namespace exemplar
