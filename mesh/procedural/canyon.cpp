@@ -35,6 +35,7 @@ const Plan kHeights({
 });
 constexpr int kFine = 4;  ///< parts of a cell's side
 constexpr int kPlateau = 4;
+constexpr double kWater = 1.25;  ///< the river's level: what lies lower is water
 /// Rows that ropes cross, from plateau to plateau.
 constexpr int kBridges[] = {3, 12};
 
@@ -54,7 +55,6 @@ class Canyon {
         kit_.at({x, y, 0});
         rock(x, y);
         walls(x, y);
-        if (lowest(x, y) == 0) water();
         plants(x, y);
       }
     }
@@ -77,7 +77,7 @@ class Canyon {
     const double u = static_cast<double>(i) / kFine, v = static_cast<double>(j) / kFine;
     const double h = (corner(x, y) * (1 - u) + corner(x + 1, y) * u) * (1 - v) +
                      (corner(x, y + 1) * (1 - u) + corner(x + 1, y + 1) * u) * v;
-    return {u, v, 1 + terraced(h)};
+    return {u, v, std::max(kWater, 1 + terraced(h))};
   }
 
   void rock(int x, int y) {
@@ -101,6 +101,7 @@ class Canyon {
     const Vec3d normal = normalized(cross(b - a, c - a));
     const double z = (a.z + b.z + c.z) / 3, t = z - std::floor(z);
     std::uint32_t material = t < 0.5 ? dark_ : pale_;
+    if (std::max({a.z, b.z, c.z}) == kWater) return kit_.face(std::array{a, b, c}, water_);
     if (normal.z > 0.8) material = z > kPlateau + 0.9 ? grass_ : sand_;
     kit_.face(std::array{a, b, c}, material);
   }
@@ -127,12 +128,6 @@ class Canyon {
     }
     kit_.face(std::array{Vec3d{0, 0, 0.5}, Vec3d{0, 1, 0.5}, Vec3d{1, 1, 0.5}, Vec3d{1, 0, 0.5}},
               dark_);
-  }
-
-  void water() {
-    kit_.face(
-        std::array{Vec3d{0, 0, 1.25}, Vec3d{1, 0, 1.25}, Vec3d{1, 1, 1.25}, Vec3d{0, 1, 1.25}},
-        water_);
   }
 
   void plants(int x, int y) {

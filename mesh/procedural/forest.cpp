@@ -56,35 +56,36 @@ class Forest {
  private:
   static bool isBrook(int x, int y) { return kPlan(x, y) == '~' || kPlan(x, y) == '='; }
 
-  /// A ditch with water that goes on to some sides; what is not water is moss.
+  /// A ditch with water that goes on to some sides; what is not water is moss. Closed: each slope
+  /// meets the next along the edges at the ditch's corners.
   void brook(unsigned sides) {
-    kit_.face(std::array{Vec3d{0, 0, 0.8}, Vec3d{1, 0, 0.8}, Vec3d{1, 1, 0.8}, Vec3d{0, 1, 0.8}},
+    kit_.at(cell());
+    kit_.face(std::array{Vec3d{0.3, 0.3, 0.8}, Vec3d{0.7, 0.3, 0.8}, Vec3d{0.7, 0.7, 0.8},
+                         Vec3d{0.3, 0.7, 0.8}},
               water_);
     for (int turn = 0; turn < 4; ++turn) {
       kit_.at(cell(), turn);
-      const unsigned turned = turnedSides(sides, -turn);
-      if (!(turned & kEast)) {
-        // A bank to the east: its top, and the slope down to the water.
-        kit_.face(std::array{Vec3d{0.75, 0.25, 1}, Vec3d{1, 0.25, 1}, Vec3d{1, 0.75, 1},
-                             Vec3d{0.75, 0.75, 1}},
-                  moss_);
-        kit_.face(std::array{Vec3d{0.7, 0.25, 0.8}, Vec3d{0.75, 0.25, 1}, Vec3d{0.75, 0.75, 1},
-                             Vec3d{0.7, 0.75, 0.8}},
-                  earth_);
-      }
       // The corner between east and north.
       kit_.face(
           std::array{Vec3d{0.75, 0.75, 1}, Vec3d{1, 0.75, 1}, Vec3d{1, 1, 1}, Vec3d{0.75, 1, 1}},
           moss_);
-      if (turned & kEast) {
-        kit_.face(std::array{Vec3d{0.75, 0.75, 1}, Vec3d{0.75, 0.7, 0.8}, Vec3d{1, 0.7, 0.8},
-                             Vec3d{1, 0.75, 1}},
+      if (turnedSides(sides, -turn) & kEast) {
+        kit_.face(std::array{Vec3d{0.7, 0.3, 0.8}, Vec3d{1, 0.3, 0.8}, Vec3d{1, 0.7, 0.8},
+                             Vec3d{0.7, 0.7, 0.8}},
+                  water_);
+        kit_.face(std::array{Vec3d{0.7, 0.7, 0.8}, Vec3d{1, 0.7, 0.8}, Vec3d{1, 0.75, 1},
+                             Vec3d{0.75, 0.75, 1}},
                   earth_);
-      }
-      if (turned & kNorth) {
-        kit_.face(std::array{Vec3d{0.75, 0.75, 1}, Vec3d{0.75, 1, 1}, Vec3d{0.7, 1, 0.8},
-                             Vec3d{0.7, 0.75, 0.8}},
+        kit_.face(std::array{Vec3d{0.75, 0.25, 1}, Vec3d{1, 0.25, 1}, Vec3d{1, 0.3, 0.8},
+                             Vec3d{0.7, 0.3, 0.8}},
                   earth_);
+      } else {
+        kit_.face(std::array{Vec3d{0.7, 0.3, 0.8}, Vec3d{0.75, 0.25, 1}, Vec3d{0.75, 0.75, 1},
+                             Vec3d{0.7, 0.7, 0.8}},
+                  earth_);
+        kit_.face(std::array{Vec3d{0.75, 0.25, 1}, Vec3d{1, 0.25, 1}, Vec3d{1, 0.75, 1},
+                             Vec3d{0.75, 0.75, 1}},
+                  moss_);
       }
     }
   }

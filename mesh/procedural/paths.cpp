@@ -53,6 +53,9 @@ class Paths {
     walk({1, 13, 1}, 0, "FpFAFFRFFbFLFUFGFFLFFlF");
     walk({13, 2, 1}, 1, "FlFAFLFFpFRFFbFUFFAF");
     walk({9, 1, 2}, 1, "FpFFAFRFFlFLFGFFDFFbF");
+    // Short ones that end on either side, so that any path may.
+    walk({9, 14, 1}, 0, "FFF");
+    walk({14, 5, 1}, 1, "FFF");
     for (const auto& [at, cell] : cells_) place({at[0], at[1], at[2]}, cell);
     for (const auto& [at, cell] : cells_) support({at[0], at[1], at[2]}, cell);
     kGarden.each([&](int x, int y, char c) { garden(x, y, c); });
@@ -165,7 +168,7 @@ class Paths {
     kit_.at(c, rises);
     for (int step = 0; step < 6; ++step) {
       const double a = step / 6.0, b = (step + 1) / 6.0;
-      kit_.box({a, 0.2, std::max(0.0, b - 0.34)}, {b, 0.8, b}, stone_, step == 5 ? kMaxX : 0u);
+      kit_.box({a, 0.2, std::max(0.0, b - 0.34)}, {b, 0.8, b}, stone_);
     }
     // A slope along each side, from the wall below to the wall above.
     for (const double y : {0.14, 0.8}) {
