@@ -16,6 +16,7 @@
 #include "core/file.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
+#include "synth/model/infallible.h"
 #include "voxelize/adjacency.h"
 
 namespace exemplar {
@@ -56,6 +57,30 @@ Json meshInfo(const Options& options, Terminal& terminal) {
           {"materials", mesh.materials.size()}};
 }
 
+/// Whether plain propagation can fail on the example's rules, as far as that can be proved.
+void tellProof(const Adjacency& adjacency, Terminal& terminal, Json& json) {
+  terminal.step("looking for a proof that propagation cannot fail");
+  const RuleSummary rules = summarizeRules(adjacency);
+  const Vec3i r = rules.proof.region;
+  const std::string region = std::to_string(r.x) + " x " + std::to_string(r.y) + " x " +
+                             std::to_string(r.z) + " cells (" + withThousands(rules.proof.regions) +
+                             " looked at)";
+  std::string text = "not proved infallible";
+  if (rules.statement311) {
+    text = "infallible: statement 3.11 holds, so plain propagation in column order never fails";
+  } else if (rules.infallible()) {
+    text = "infallible, proved by Algorithm 3.6 with regions of " + region;
+  } else if (rules.proof.verdict == InfallibleProof::Verdict::TooMany) {
+    text += ": there are too many regions of " + region;
+  } else {
+    text += ": statement 3.11 does not hold, nor do regions of " + region + " prove it";
+  }
+  terminal.say("propagation", text);
+  json["statement_3_11"] = rules.statement311;
+  json["infallible"] = rules.infallible();
+  json["proof_regions"] = rules.proof.regions;
+}
+
 Json labelInfo(const Options& options, Terminal& terminal) {
   const LabelExample example =
       loadLabelExample(options.example, options.reading, terminal.progress());
@@ -94,6 +119,7 @@ Json labelInfo(const Options& options, Terminal& terminal) {
   }
   terminal.say("adjacency", text);
   json["adjacency_density"] = density;
+  tellProof(adjacency, terminal, json);
   if (example.pieces) {
     const ModelPieces& p = *example.pieces;
     const auto images = [&](const std::vector<Label>& of) {

@@ -138,6 +138,18 @@ TEST_F(LabelCommand, PinsAndWeightsAreKept) {
   EXPECT_EQ(std::count(none.labels.begin(), none.labels.end(), 0), 12 * 12 * 3);
 }
 
+TEST_F(LabelCommand, CountsAreKept) {
+  ASSERT_EQ(run("synth rings.txt -o out.txt --size 12,12,3 --count post=4..8 -q").status, 0);
+  const Grid grid = readGrid(folder_ / "out.txt");
+  const auto posts = std::count(grid.labels.begin(), grid.labels.end(), 9);
+  EXPECT_GE(posts, 4);
+  EXPECT_LE(posts, 8);
+  // More posts than cells.
+  const CommandResult many = run("synth rings.txt -o no.txt --size 5,5,3 --count post=99..");
+  EXPECT_EQ(many.status, 3);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "no.txt"));
+}
+
 TEST_F(LabelCommand, MapsSayWhereLabelsAre) {
   // White on the right: rings' corners only there.
   Image8 half{24, 12, 1, {}};
