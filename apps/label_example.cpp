@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -16,6 +17,8 @@
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
 #include "mesh/scene.h"
+#include "reconstruct/reconstruct.h"
+#include "sdf/vdb_file.h"
 #include "voxelize/label_file.h"
 #include "voxelize/label_mesh.h"
 
@@ -53,6 +56,38 @@ MeshExample loadMeshExample(const std::filesystem::path& path, const LabelReadin
   return example;
 }
 
+/// Whether a `.vdb` holds a distance field; where not, reading it as labels says what is wrong.
+bool holdsDistances(const std::filesystem::path& path) {
+  try {
+    readVdb(path);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Samples the example as a distance field; equal blocks of it are a label.
+void fromField(LabelExample& example, const LabelReading& options, const Progress& progress) {
+  ExampleOptions sampling;
+  sampling.resolution = options.resolution;
+  sampling.padding = options.air;
+  sampling.sceneSeed = options.sceneSeed;
+  sampling.mesh = options.mesh;
+  FieldBlocksOptions blocks = options.blocks;
+  if (!options.fieldBlock.empty()) blocks.block = parseCells(options.fieldBlock, "--field-block");
+  QuantizedExample& field =
+      example.field.emplace(QuantizedExample{loadExample(example.path, sampling, progress), {}});
+  if (progress.cancelled()) return;
+  field.blocks = cutIntoBlocks(field.example.field, blocks, progress);
+  example.grid = field.blocks.grid;
+  example.scale = field.example.scale;
+  const Vec3i& side = field.blocks.block;
+  example.description =
+      "blocks of " + std::to_string(side.x) + " x " + std::to_string(side.y) + " x " +
+      std::to_string(side.z) + " samples of a " + field.example.description + ", " +
+      std::to_string(std::lround(100 * field.blocks.repetition)) + " % of them repeated";
+}
+
 void fromMesh(LabelExample& example, const LabelReading& options, const Progress& progress) {
   MeshExample source = loadMeshExample(example.path, options);
   const Box3d box = source.box.value_or(boundingBox(source.mesh));
@@ -61,9 +96,8 @@ void fromMesh(LabelExample& example, const LabelReading& options, const Progress
     cell = parseTriple(options.cell, "--cell");
   } else if (cell == Vec3d{} || options.resolution) {
     if (!options.voxels) {
-      throw InputError(example.path.string() +
-                       ": to cut a mesh into model pieces, give the side of a cell: --cell S or "
-                       "--cell X,Y,Z");
+      fromField(example, options, progress);
+      return;
     }
     const Vec3d size = box.size();
     const double side =
@@ -111,6 +145,14 @@ void addLabelReadingOptions(CLI::App& command, LabelReading& options) {
                    "let a picture's pieces begin at every pixel");
   command.add_option("--scene-seed", options.sceneSeed,
                      "another sample of a scene's own random process");
+  command.add_option("--field-block", options.fieldBlock,
+                     "samples a side of what is one label in a distance field (of a mesh without "
+                     "--cell, a height map, a volume): N or X,Y,Z (found)");
+  command
+      .add_option("--field-tolerance", options.blocks.tolerance,
+                  "how far blocks of one label may differ, voxels")
+      ->check(CLI::Range(0.0, 16.0))
+      ->capture_default_str();
   addUpOption(command, options.mesh);
 }
 
@@ -127,6 +169,8 @@ LabelExample loadLabelExample(const std::filesystem::path& path, const LabelRead
     example.image = labelsFromImage(decodeImage(readFile(path), name), name, options.image);
     example.grid = example.image->grid;
     example.description = "from a picture";
+  } else if (ending == ".pgm" || ending == ".asc" || (ending == ".vdb" && holdsDistances(path))) {
+    fromField(example, options, progress);
   } else {
     example.grid = readLabels(path);
     example.description = "grid of labels";
@@ -193,6 +237,15 @@ bool isLabelExample(const std::filesystem::path& path) {
 
 TriangleMesh labelsToMesh(const LabelGrid& grid, const LabelExample& example) {
   if (example.pieces) return assemblePieces(grid, *example.pieces);
+  if (example.field) {
+    const Example& source = example.field->example;
+    const PlacedBlocks placed = placeBlocks(source.field, example.field->blocks, grid.cells);
+    ReconstructOptions asItIs;
+    asItIs.blend = 0;
+    return reconstructSurface(placed.field, placed.origins,
+                              {source.field, source.mesh ? &*source.mesh : nullptr}, asItIs)
+        .mesh;
+  }
   TriangleMesh mesh = labelMesh(grid);
   if (mesh.triangles.empty()) throw InputError("the result has no geometry: its cells are empty");
   return mesh;
@@ -202,6 +255,12 @@ std::string writeLabelResult(const std::filesystem::path& path, const LabelGrid&
                              const LabelExample& example, bool instances,
                              const MeshFileOptions& options) {
   if (!isMeshFile(path)) {
+    if (lowerExtension(path) == ".vdb" && example.field) {
+      const PlacedBlocks placed =
+          placeBlocks(example.field->example.field, example.field->blocks, grid.cells);
+      writeVdb(path, placed.field);
+      return path.string() + ": distances, " + readableCells(placed.field.size());
+    }
     if (lowerExtension(path) == ".png" && example.image) {
       writePng(path, imageFromLabels(grid, *example.image));
     } else {

@@ -11,6 +11,7 @@
 #include "apps/example.h"
 #include "core/progress.h"
 #include "mesh/triangle_mesh.h"
+#include "voxelize/field_blocks.h"
 #include "voxelize/label_grid.h"
 #include "voxelize/label_image.h"
 #include "voxelize/mesh_to_labels.h"
@@ -31,23 +32,34 @@ struct LabelReading {
   std::optional<int> air;  ///< empty cells around a mesh
   double tolerance = 1e-4;
   ImageLabelsOptions image;
+  std::string fieldBlock;     ///< samples a side of a distance field's blocks: "8", "8,8,12"
+  FieldBlocksOptions blocks;  ///< the rest of how a field is cut
   std::optional<std::uint64_t> sceneSeed;
   MeshFileOptions mesh;
 };
 void addLabelReadingOptions(CLI::App& command, LabelReading& options);
+
+/// A distance field whose blocks are labels: what compares the two families on one input.
+struct QuantizedExample {
+  Example example;
+  FieldBlocks blocks;
+};
 
 /// An example of model synthesis, and what puts a result back together as the example was.
 struct LabelExample {
   std::filesystem::path path;
   std::string description;  ///< for people: "12 x 8 x 5 cells of 62 labels, cut from a mesh"
   LabelGrid grid;
-  std::optional<ModelPieces> pieces;  ///< of a mesh or scene
-  std::optional<ImageLabels> image;   ///< of a picture
-  Vec3d scale{2, 2, 1};               ///< a good size of a result, in boxes of the example
+  std::optional<ModelPieces> pieces;      ///< of a mesh or scene
+  std::optional<ImageLabels> image;       ///< of a picture
+  std::optional<QuantizedExample> field;  ///< of a mesh without pieces, a height map, a volume
+  Vec3d scale{2, 2, 1};                   ///< a good size of a result, in boxes of the example
 };
 
 /// Reads `.txt .vox`, `.vdb` (a grid of labels), `.png .jpg` (a flat grid), meshes and scenes (cut
-/// into model pieces, or into voxels of their materials). Throws `InputError`.
+/// into model pieces, or into voxels of their materials). A mesh or scene that has no grid of
+/// pieces and is given none, a height map (`.pgm .asc`) and a `.vdb` of distances are sampled as a
+/// distance field, whose blocks are labels. Throws `InputError`.
 LabelExample loadLabelExample(const std::filesystem::path& path, const LabelReading& options,
                               const Progress& progress);
 
@@ -63,7 +75,8 @@ bool isLabelExample(const std::filesystem::path& path);
 /// What labels can be written to, for help and errors.
 inline constexpr const char* kLabelOutputEndings = ".txt .vox .vdb .png .obj .ply .stl .off .glb";
 
-/// The result as triangles: the example's model pieces where it has them, else boxes.
+/// The result as triangles: the example's model pieces or blocks of its field where it has them,
+/// else boxes.
 TriangleMesh labelsToMesh(const LabelGrid& grid, const LabelExample& example);
 
 /// Writes a grid of an example's labels in the format of the path's ending; `instances`: a `.glb`

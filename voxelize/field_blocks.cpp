@@ -18,7 +18,7 @@ namespace exemplar {
 namespace {
 
 constexpr int kUsualBlock = 8;
-constexpr int kSmallestSplit = 16;  // axes shorter than this are one block
+constexpr int kSmallestSplit = 28;  // axes shorter than this are one block
 constexpr int kMostLabels = 1 << 16;
 constexpr double kRepeats = 0.6;    // of the surface, for a step to count as a period
 constexpr double kAsGoodAs = 0.97;  // of the best step's share: a shorter one is preferred

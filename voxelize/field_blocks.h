@@ -46,7 +46,7 @@ struct FieldBlocks {
 
 /// For each axis the shortest step after which the field is most nearly itself, near its surface:
 /// the period of a regular example. Where nothing repeats, 8; never more than half the axis, and an
-/// axis of fewer than 16 samples is one block. O(samples × largest step).
+/// axis of fewer than 28 samples is one block. O(samples × largest step).
 Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& options = {});
 
 /// Cuts a field into labelled blocks. Labels are numbered by their first block's index. Blocks are
