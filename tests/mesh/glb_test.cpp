@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "mesh/mesh_formats.h"
 #include "mesh/mesh_health.h"
 #include "mesh_samples.h"
 
@@ -414,6 +415,46 @@ TEST(Glb, WhatIsWrittenAnotherLibraryReads) {
     EXPECT_EQ(a.maxValues, (std::vector<double>{box.max.x, box.max.y, box.max.z}));
   }
   EXPECT_EQ(triangle, full.triangles.size());
+}
+
+TEST(Glb, InstancesAreMeshesThatNodesShare) {
+  // The first two faces, all but them, and a part without triangles.
+  const TriangleMesh full = fullMesh();
+  const auto last = static_cast<std::uint32_t>(full.triangles.size());
+  MeshInstances instances;
+  instances.first = {0, 4, 4, last};
+  instances.placements = {{2, {10, 0, 0}}, {0, {0, 20, 0}}, {1, {5, 5, 5}}, {0, {0, 0, 30}}};
+  const std::string bytes = formatGlb(full, instances, /*yUp=*/true);
+  tinygltf::TinyGLTF loader;
+  tinygltf::Model model;
+  std::string error, warning;
+  ASSERT_TRUE(loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                          reinterpret_cast<const unsigned char*>(bytes.data()),
+                                          static_cast<unsigned>(bytes.size())))
+      << error;
+  EXPECT_EQ(error + warning, "");
+  ASSERT_EQ(model.meshes.size(), 2u) << "the empty part is not there";
+  ASSERT_EQ(model.nodes.size(), 3u);
+  EXPECT_EQ(model.scenes[0].nodes, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(model.nodes[1].mesh, model.nodes[2].mesh);
+  EXPECT_NE(model.nodes[0].mesh, model.nodes[1].mesh);
+  EXPECT_EQ(model.nodes[1].translation, (std::vector<double>{0, 0, -20}));  // y is up in the file
+  EXPECT_EQ(model.images.size(), 1u);
+  EXPECT_EQ(model.materials.size(), 2u);
+  // Read back, all of it is in its place, with its colours.
+  const TriangleMesh back = parse(".glb", bytes);
+  EXPECT_EQ(back.triangles.size(), 4u + 4u + (last - 4));
+  EXPECT_EQ(back.materials[0].name, full.materials[0].name);
+  EXPECT_TRUE(back.hasUvs() && back.hasColors());
+  const auto boxOf = [](const TriangleMesh& mesh, std::size_t from, std::size_t to) {
+    Box3d box;
+    for (std::size_t t = from; t < to; ++t) {
+      for (const std::uint32_t v : mesh.triangles[t]) box.add(mesh.positions[v]);
+    }
+    return box;
+  };
+  const Box3d rest = boxOf(full, 4, last), moved = boxOf(back, 0, last - 4);
+  EXPECT_EQ(fromFileAxes(moved.min, true).x, rest.min.x + 10);
 }
 
 TEST(Glb, VerticesAreSplitOnlyWhereTextureCoordinatesDiffer) {
