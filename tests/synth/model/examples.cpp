@@ -198,58 +198,43 @@ LabelGrid city() {
 }
 
 LabelGrid gadgets() {
-  Sketch s({26, 26, 12});
-  // Gears stand in x-z planes. A small gear is 3 x 3 cells, a large one 5 x 5 with teeth all round;
-  // axles run along y from bearing to bearing. Teeth mesh where two gears touch.
-  const auto gear = [&](int x, int y, int z, int r, const std::string& kind) {
-    for (int i = -r; i <= r; ++i) {
-      for (int k = -r; k <= r; ++k) {
-        if (i == 0 && k == 0) {
-          s.set(x, y, z, kind + "hub");
-          continue;
-        }
-        // The large gear has spokes and holes.
-        if (r == 2 && std::abs(i) == 1 && std::abs(k) == 1) continue;
-        s.set(x + i, y, z + k, kind + std::to_string(i + r) + std::to_string(k + r));
+  Sketch s({20, 20, 10});
+  const auto direction = [](const Vec3i& d) {
+    return std::string(d.x ? "x" : d.y ? "y" : "z") + (d.x + d.y + d.z > 0 ? "+" : "-");
+  };
+  // A belt that runs round a rectangle in the plane of axes a and b; a cell is named by where the
+  // belt comes from and where it goes.
+  const auto belt = [&](const Vec3i& corner, int a, int b, int length, int width, bool reverse) {
+    std::vector<Vec3i> cells;
+    Vec3i p = corner;
+    for (int side = 0; side < 4; ++side) {
+      const int axis = side % 2 ? b : a;
+      for (int i = 1; i < (side % 2 ? width : length); ++i) {
+        cells.push_back(p);
+        p[axis] += side < 2 ? 1 : -1;
       }
     }
-  };
-  const auto axle = [&](int x, int y0, int y1, int z) {
-    s.set(x, y0, z, "bearingFront");
-    s.set(x, y1, z, "bearingBack");
-    for (int y = y0 + 1; y < y1; ++y) {
-      if (s.empty(x, y, z)) s.set(x, y, z, "axle");
+    if (reverse) std::reverse(cells.begin(), cells.end());
+    const int n = static_cast<int>(cells.size());
+    for (int i = 0; i < n; ++i) {
+      const Vec3i& c = cells[i];
+      const std::string in = direction(c - cells[(i + n - 1) % n]);
+      const std::string out = direction(cells[(i + 1) % n] - c);
+      s.set(c.x, c.y, c.z, in == out ? in : in + out);
     }
   };
-  // Three trains of gears, each large one meshing with a small one beside or above it.
-  gear(4, 4, 3, 2, "L");
-  gear(8, 4, 3, 1, "S");
-  axle(4, 2, 6, 3);
-  axle(8, 2, 8, 3);
-  gear(8, 7, 3, 1, "S");
-  axle(4, 9, 14, 3);
-  gear(4, 12, 3, 2, "L");
-  gear(4, 12, 7, 1, "S");
-  axle(4, 10, 15, 7);
-  s.set(4, 9, 3, ".");
-  axle(4, 10, 14, 3);
-  gear(14, 5, 4, 2, "L");
-  gear(10, 5, 4, 1, "S");
-  gear(18, 5, 4, 1, "S");
-  axle(14, 3, 8, 4);
-  axle(10, 4, 7, 4);
-  axle(18, 1, 7, 4);
-  gear(16, 14, 3, 2, "L");
-  gear(16, 17, 3, 2, "L");
-  axle(16, 12, 19, 3);
-  gear(16, 14, 7, 1, "S");
-  axle(16, 13, 16, 7);
-  gear(12, 17, 3, 1, "S");
-  axle(12, 16, 20, 3);
-  gear(21, 21, 6, 1, "S");
-  gear(21, 21, 9, 1, "S");
-  axle(21, 19, 23, 6);
-  axle(21, 20, 24, 9);
+  belt({1, 2, 1}, 0, 2, 5, 4, false);
+  belt({1, 4, 1}, 0, 2, 4, 5, true);
+  belt({8, 1, 1}, 1, 2, 5, 4, false);
+  belt({10, 1, 1}, 1, 2, 4, 5, true);
+  // Shafts from side to side, against each other in pairs where gears join them.
+  for (int i = 0; i < 20; ++i) {
+    const std::string gear = i % 7 == 4 ? "gear" : "";
+    s.set(i, 9, 7, "x+" + gear);
+    s.set(i, 9, 8, "x-" + gear);
+    s.set(15, i, 5, "y+" + gear);
+    s.set(16, i, 5, "y-" + gear);
+  }
   return s.grid();
 }
 

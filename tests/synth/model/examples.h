@@ -28,7 +28,8 @@ LabelGrid figure36();
 LabelGrid canyon();
 /// Streets, lamps, cars and houses of the city's kind: 100-130 labels.
 LabelGrid city();
-/// Gears that mesh, on axles that end in bearings: about 45 labels, each gear of many cells.
+/// Machinery of the gadgets' kind: closed belts that run one way, geared shafts from side to side;
+/// about 30 labels.
 LabelGrid gadgets();
 /// Wings, towers and a dome of the parliament's kind: about 95 labels.
 LabelGrid parliament();

@@ -116,6 +116,21 @@ TEST(SynthesizeModel, NeverFailsOnFigure35) {
   }
 }
 
+TEST(SynthesizeModel, NeverFailsOnPathsThatNeverEnd) {
+  const LabelGrid example = test::escheresque();
+  ModelOptions o;
+  o.size = {40, 40, 10};
+  o.choice = LabelChoice::Uniform;
+  EXPECT_LT(plainSuccesses(example, o, 10), 2);
+  for (int seed = 0; seed < 5; ++seed) {
+    o.seed = seed;
+    const ModelResult r = synthesizeModel(example, o);
+    ASSERT_EQ(r.status, ModelStatus::Complete) << seed;
+    EXPECT_EQ(findViolations(r.grid(), example).count, 0);
+    EXPECT_GT(r.statistics.repairs, 0);
+  }
+}
+
 TEST(SynthesizeModel, PlainPropagationSucceedsOnTheInfallibleTwin) {
   // Thesis, section 3.3.8: one cell's own label makes figure 3.5 infallible.
   ModelOptions o;
