@@ -447,41 +447,59 @@ void synth(const Options& options) {
 }
 
 void addRequestOptions(CLI::App& command, Options& options) {
-  command.add_option(
-      "--side", options.sides,
-      "what may stand at a side of the result: SIDE=example (the default), SIDE=free "
-      "or SIDE=LABEL,...; left, right, front, back, bottom, top or all");
+  command
+      .add_option("--side", options.sides,
+                  "what may stand at a side of the result: SIDE=example (the default), SIDE=free "
+                  "or SIDE=LABEL,...; left, right, front, back, bottom, top or all")
+      ->allow_extra_args(false);
   command.add_option("--periodic", options.periodic,
                      "axes along which the result repeats: x, xy, ...");
-  command.add_option("--pin", options.pins,
-                     "cells that must have one of some labels: "
-                     "X,Y,Z=LABEL,...");
+  command
+      .add_option("--pin", options.pins,
+                  "cells that must have one of some labels: "
+                  "X,Y,Z=LABEL,...")
+      ->allow_extra_args(false);
   command.add_option(
       "--mask", options.mask,
       "a .png seen from above: black cells are holes, left empty; or a .txt, .vox or "
       ".vdb of the result's size, whose cells with 0 are");
-  command.add_option("--weight", options.weights,
-                     "make labels more or less frequent: LABEL,...=NUMBER (1); 0 forbids them");
-  command.add_option("--weight-map", options.weightMaps,
-                     "make labels frequent where a picture seen from above is white: "
-                     "LABEL,...=PICTURE.png; or as often as the numbers in a .txt, .vox or .vdb of "
-                     "the result's size say");
-  command.add_option("--count", options.counts,
-                     "how many cells have some labels: LABEL,...=LEAST..MOST");
-  command.add_option("--connect", options.connected,
-                     "labels whose cells must form one connected piece: LABEL,...");
+  command
+      .add_option("--weight", options.weights,
+                  "make labels more or less frequent: LABEL,...=NUMBER (1); 0 forbids them")
+      ->allow_extra_args(false);
+  command
+      .add_option("--weight-map", options.weightMaps,
+                  "make labels frequent where a picture seen from above is white: "
+                  "LABEL,...=PICTURE.png; or as often as the numbers in a .txt, .vox or .vdb of "
+                  "the result's size say")
+      ->allow_extra_args(false);
+  command
+      .add_option("--count", options.counts,
+                  "how many cells have some labels: LABEL,...=LEAST..MOST")
+      ->allow_extra_args(false);
+  command
+      .add_option("--connect", options.connected,
+                  "labels whose cells must form one connected piece: LABEL,...")
+      ->allow_extra_args(false);
   command.add_option("--mirror", options.mirror,
                      "make the result its own mirror image across x, y or both (xy)");
   command.add_option("--turns", options.turns, "alike after a half (2) or quarter (4) turn")
       ->check(CLI::IsMember({1, 2, 4}));
-  command.add_option("--mirrored-x", options.mirroredX,
-                     "labels that are mirror images of each other across x: LABEL=LABEL (known of "
-                     "model pieces; others are their own)");
-  command.add_option("--mirrored-y", options.mirroredY, "the same across y");
-  command.add_option("--turned", options.turned,
-                     "what a label becomes by a quarter turn anticlockwise: LABEL=LABEL");
-  command.add_option("--offset", options.offsets,
-                     "keep the example's pairs at a further offset, too: X,Y,Z, as 1,1,0");
+  command
+      .add_option("--mirrored-x", options.mirroredX,
+                  "labels that are mirror images of each other across x: LABEL=LABEL (known of "
+                  "model pieces; others are their own)")
+      ->allow_extra_args(false);
+  command.add_option("--mirrored-y", options.mirroredY, "the same across y")
+      ->allow_extra_args(false);
+  command
+      .add_option("--turned", options.turned,
+                  "what a label becomes by a quarter turn anticlockwise: LABEL=LABEL")
+      ->allow_extra_args(false);
+  command
+      .add_option("--offset", options.offsets,
+                  "keep the example's pairs at a further offset, too: X,Y,Z, as 1,1,0")
+      ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -498,9 +516,9 @@ CommandRun addModelSynthCommand(CLI::App& app) {
           "frames of one that changes over time")
       ->required();
   command
-      ->add_option(
-          "-o,--output", options->output,
-          std::string("what to write; its ending chooses the format: ") + kLabelOutputEndings)
+      ->add_option("-o,--output", options->output,
+                   std::string("what to write; its ending chooses the format: ") +
+                       kLabelOutputEndings + "; frames become NAME_000.txt, ... or one .gif")
       ->required();
   command->add_option("--size", options->size, "the result's size in cells: X,Y,Z");
   command->add_option("--scale", options->scale,

@@ -129,7 +129,7 @@ TEST_F(LabelCommand, WhatIsImpossibleGetsStatusThreeAndNoFile) {
 }
 
 TEST_F(LabelCommand, PinsAndWeightsAreKept) {
-  ASSERT_EQ(run("synth rings.txt -o out.txt --size 12,12,3 --pin 3,3,0=5 --weight 6=2 -q").status,
+  ASSERT_EQ(run("synth --weight 6=2 --pin 3,3,0=5 rings.txt -o out.txt --size 12,12,3 -q").status,
             0);
   EXPECT_EQ(readGrid(folder_ / "out.txt").at(3, 3, 0), 5);
   // Without corners there are no rings.
