@@ -11,16 +11,19 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "apps/synth_control.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/memory.h"
+#include "measure/collapse.h"
+#include "measure/occupancy.h"
 #include "mesh/mesh_file.h"
 #include "reconstruct/copy_triangles.h"
-#include "reconstruct/field_to_mesh.h"
-#include "reconstruct/transfer.h"
+#include "reconstruct/reconstruct.h"
 #include "sdf/vdb_file.h"
 #include "synth/geometry/blocks.h"
+#include "synth/geometry/detail.h"
 #include "synth/geometry/optimize.h"
 
 namespace exemplar {
@@ -37,6 +40,7 @@ struct Options {
   BlockSeeding seeding = BlocksOptions{}.seeding;
   std::optional<int> block, levels;
   std::uint64_t seed = 0;
+  SynthControl control;
   ExampleOptions reading;
   PictureOptions picture;
   CommonOptions common;
@@ -72,38 +76,71 @@ Vec3i resultSize(const Example& example, const Vec3d& scale) {
   return size;
 }
 
-SynthesisResult synthesize(const Options& options, const Example& example, const Vec3i& size,
-                           const Progress& progress) {
+SynthesisResult synthesize(const Options& options, const Examples& examples, const Vec3i& size,
+                           nlohmann::ordered_json& stats, Terminal& terminal) {
   if (options.method == Method::Optimize) {
-    return synthesizeOptimized(
-        example.field, {.size = size, .seed = options.seed, .levels = options.levels}, progress);
+    OptimizeOptions optimize =
+        optimizeOptions(options.control, examples, size, options.reading, terminal.progress());
+    optimize.seed = options.seed;
+    optimize.levels = options.levels;
+    const std::vector<const DistanceField*> fields = examples.fields();
+    const bool found = !optimize.stationary;
+    optimize.stationary = stationaryAxes(fields, optimize);
+    const StationaryAxes& axes = *optimize.stationary;
+    stats["stationary"] = readableAxes(axes.x, axes.y, axes.z);
+    terminal.say("stationary", readableAxes(axes.x, axes.y, axes.z) +
+                                   (found ? ", found from the example (--stationary)" : ""));
+    return synthesizeOptimized(fields, optimize, terminal.progress());
+  }
+  if (options.control.asksForOptimize()) {
+    throw InputError(
+        "--stationary, --periodic, --keep, --guide, --with and --rotations need --method optimize");
   }
   BlocksOptions blocks;
   blocks.size = size;
   blocks.seed = options.seed;
-  blocks.block = options.block.value_or(example.block);
+  blocks.block = options.block.value_or(examples.first().block);
   blocks.iterations = options.levels.value_or(blocks.iterations);
   blocks.seeding = options.seeding;
-  return synthesizeBlocks(example.field, blocks, progress);
+  return synthesizeBlocks(examples.first().field, blocks, terminal.progress());
 }
 
-TriangleMesh reconstruct(const Options& options, const Example& example,
+/// Says so where the result is all solid or all empty, and what to change.
+void warnOfCollapse(const DistanceField& example, const DistanceField& result,
+                    nlohmann::ordered_json& stats, Terminal& terminal) {
+  const Occupancy before(example), after(result);
+  CollapseSigns signs;
+  signs.exampleOccupancy = solidFraction(before);
+  signs.resultOccupancy = solidFraction(after);
+  signs.exampleSurface = surfaceDensity(before);
+  signs.resultSurface = surfaceDensity(after);
+  const Collapse collapse = detectCollapse(signs);
+  stats["collapse"] = collapseName(collapse);
+  if (collapse == Collapse::None) return;
+  terminal.say("warning",
+               collapseSentence(collapse, signs) +
+                   "; try another --seed, one of --levels less, or another --stationary");
+}
+
+/// The surface, closed and with the examples' materials, or copied triangle by triangle.
+TriangleMesh reconstruct(const Options& options, const Examples& examples,
                          const SynthesisResult& result, Terminal& terminal) {
+  const Example& example = examples.first();
   if (options.surface == Surface::Copy) {
-    if (!example.mesh) {
-      throw InputError(
-          "--surface copy: the example has no triangles to copy; use --surface contour");
+    if (!example.mesh || examples.all.size() > 1) {
+      throw InputError("--surface copy: " +
+                       std::string(example.mesh ? "there are several examples"
+                                                : "the example has no triangles to copy") +
+                       "; use --surface contour");
     }
     terminal.step("copying the example's triangles");
     return copyTriangles(result.field, result.origins, *example.mesh, example.field).mesh;
   }
-  terminal.step("contouring");
-  TriangleMesh mesh = fieldToMesh(result.field);
-  if (example.mesh) {
-    terminal.step("pulling materials and colours through the origins");
-    transferAppearance(mesh, result.field, result.origins, *example.mesh, example.field);
-  }
-  return mesh;
+  terminal.step("making the surface");
+  // The seams of the field are evened out already.
+  return reconstructSurface(result.field, result.origins, examples.views(), {.blend = 0},
+                            terminal.progress())
+      .mesh;
 }
 
 nlohmann::ordered_json toJson(const Vec3i& v) { return {v.x, v.y, v.z}; }
@@ -134,19 +171,16 @@ void synth(const Options& options) {
   if (!options.origins.empty()) requireOutput(options.origins, ".vdb");
   const RenderOptions picture = renderOptions(options.picture);
 
-  const Example example = loadExample(options.example, options.reading, terminal.progress());
-  terminal.say("example", options.example + ": " + example.description);
+  Examples examples(loadExample(options.example, options.reading, terminal.progress()),
+                    options.control, options.reading, terminal.progress());
+  const Example& example = examples.first();
+  for (const Example& each : examples.all) {
+    terminal.say("example", each.path.string() + ": " + each.description);
+  }
   const double readSeconds = total.seconds();
 
   const Vec3d scale = options.scale.empty() ? example.scale : parseTriple(options.scale, "--scale");
   const Vec3i size = resultSize(example, scale);
-  const Stopwatch synthesis;
-  const SynthesisResult result = synthesize(options, example, size, terminal.progress());
-  if (result.status == SynthesisStatus::Cancelled) throw Interrupted();
-  const double synthesisSeconds = synthesis.seconds();
-  terminal.say("result", readableSize(size) + " in " + readableSeconds(synthesisSeconds) +
-                             ", seed " + std::to_string(options.seed));
-
   nlohmann::ordered_json stats = {
       {"example", options.example},
       {"output", options.output},
@@ -154,13 +188,29 @@ void synth(const Options& options) {
       {"seed", options.seed},
       {"example_samples", toJson(example.field.size())},
       {"result_samples", toJson(size)},
-      {"voxel_size", example.field.voxelSize},
-      {"matches", result.matches}};
+      {"voxel_size", example.field.voxelSize}};
+  const Stopwatch synthesis;
+  SynthesisResult result = synthesize(options, examples, size, stats, terminal);
+  if (result.status == SynthesisStatus::Cancelled) throw Interrupted();
+  stats["matches"] = result.matches;
+  warnOfCollapse(example.field, result.field, stats, terminal);
+  if (options.control.detail > 1) {
+    terminal.step("pulling finer detail");
+    examples.refine(options.control.detail, options.reading, terminal.progress());
+    result =
+        addDetail(examples.fields(), result.origins, options.control.detail, terminal.progress());
+    if (result.status == SynthesisStatus::Cancelled) throw Interrupted();
+    stats["detail"] = options.control.detail;
+  }
+  const double synthesisSeconds = synthesis.seconds();
+  terminal.say("result", readableSize(result.field.size()) + " in " +
+                             readableSeconds(synthesisSeconds) + ", seed " +
+                             std::to_string(options.seed));
 
   const Stopwatch surface;
   const bool meshOut = isMeshFile(options.output);
   if (meshOut || !options.preview.empty()) {
-    const TriangleMesh mesh = reconstruct(options, example, result, terminal);
+    const TriangleMesh mesh = reconstruct(options, examples, result, terminal);
     const MeshHealth health = meshHealth(mesh);
     stats["mesh"] = toJson(health);
     Image8 image;
@@ -254,6 +304,7 @@ CommandRun addSynthCommand(CLI::App& app) {
   command->add_option("--stats", options->stats, "also write figures of the run (.json)");
   command->add_option("--origins", options->origins,
                       "also write where each sample of the result came from (.vdb)");
+  addControlOptions(*command, options->control);
   addExampleOptions(*command, options->reading);
   addPictureOptions(*command, options->picture);
   addCommonOptions(*command, options->common);

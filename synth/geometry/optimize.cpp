@@ -341,14 +341,24 @@ void balanceExamples(const PyramidLevel& level, const std::vector<SourcePart>& p
   }
 }
 
-/// The examples, turned in all ways that are asked for. What is kept, where it is in the example,
-/// is all that is copied.
+/// Whether there is both solid and air in what is kept.
+bool keepsSurface(const DistanceField& example, const Array3D<std::uint8_t>& kept) {
+  bool solid = false, air = false;
+  for (std::size_t s = 0; s < kept.count(); ++s) {
+    if (!kept.values()[s]) continue;
+    (example.values[kept.ijk(s)] < 0 ? solid : air) = true;
+  }
+  return solid && air;
+}
+
+/// The examples, turned in all ways that are asked for. Where a part of the first with its surface
+/// is kept, that is all that is copied of it.
 std::vector<SourcePart> sourceParts(std::span<const DistanceField* const> examples,
                                     const OptimizeOptions& options) {
   std::vector<SourcePart> parts;
   for (std::size_t e = 0; e < examples.size(); ++e) {
     DistanceField mask = *examples[e];
-    const bool masked = e == 0 && options.kept;
+    const bool masked = e == 0 && options.kept && keepsSurface(*examples[0], *options.kept);
     if (masked) {
       for (std::size_t s = 0; s < mask.values.count(); ++s) {
         const Vec3i p = mask.values.ijk(s);

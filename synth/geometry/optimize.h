@@ -31,8 +31,8 @@ struct OptimizeOptions {
   PeriodicAxes periodic;
   /// What stays as it is: samples of the result, not 0, that are the (first) example's of the same
   /// place, to the bit; of the result's size. Only what is kept is copied from that example, so
-  /// what is not kept of it (a hole in a scan) is made new. Samples outside the example are passed
-  /// over.
+  /// what is not kept of it (a hole in a scan) is made new; but where only solid or only air is
+  /// kept, all of it is copied from. Samples outside the example are passed over.
   std::optional<Array3D<std::uint8_t>> kept;
   /// What the solid shall be near to, coarsely: distances in voxels, below 0 where solid is wanted;
   /// of the result's size. Axes that are not stationary are then moved along like others.

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
@@ -129,6 +130,111 @@ TEST(SynthCommand, QuietSaysNothing) {
       runExemplar("synth " + scene("chainmail") + kQuick + "-q -o o.obj", folder.path());
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST(SynthCommand, TellsAlongWhichAxesPartsMoved) {
+  const TestFolder folder;
+  const auto found =
+      runExemplar("synth " + scene("terrain") + kQuick + "-o o.vdb --stats o.json", folder.path());
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.out, testing::HasSubstr("found from the example"));
+  EXPECT_EQ(nlohmann::json::parse(readFile(folder / "o.json"))["stationary"], "x, y");
+  const auto told = runExemplar("synth " + scene("terrain") + kQuick + "--stationary none -o p.vdb",
+                                folder.path());
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(told.out, testing::HasSubstr("stationary none"));
+  EXPECT_NE(readFile(folder / "o.vdb"), readFile(folder / "p.vdb"));
+}
+
+TEST(SynthCommand, APeriodicResultGoesOnAtItsOtherSide) {
+  const TestFolder folder;
+  const auto across = [&](const std::string& more) {
+    EXPECT_EQ(runExemplar("synth " + scene("terrain") + kQuick + "--scale 1 -o o.vdb" + more,
+                          folder.path())
+                  .status,
+              0);
+    const Array3D<float> f = readVdb(folder / "o.vdb").values;
+    double sum = 0;
+    for (int k = 0; k < f.size().z; ++k) {
+      for (int j = 0; j < f.size().y; ++j) {
+        sum += std::abs(f(0, j, k) - f(f.size().x - 1, j, k));
+      }
+    }
+    return sum;
+  };
+  EXPECT_LT(across(" --periodic x,y"), 0.7 * across(""));
+}
+
+TEST(SynthCommand, WhatIsKeptStaysAsItIs) {
+  const TestFolder folder;
+  ASSERT_EQ(
+      runExemplar("sdf " + scene("balls") + " --resolution 32 -o e.vdb", folder.path()).status, 0);
+  const DistanceField example = readVdb(folder / "e.vdb");
+  DistanceField half = example;  // all of it but a slab at its end
+  for (std::size_t s = 0; s < half.values.count(); ++s) {
+    half.values.values()[s] = half.values.ijk(s).x < 20 ? -1.0f : 1.0f;
+  }
+  writeVdb(folder / "half.vdb", half);
+  const auto result = runExemplar(
+      "synth e.vdb --scale 1.25,1,1 --keep half.vdb -o o.vdb --origins origins.vdb", folder.path());
+  ASSERT_EQ(result.status, 0) << result.err;
+  const DistanceField field = readVdb(folder / "o.vdb");
+  const Origins origins = readOriginsVdb(folder / "origins.vdb");
+  for (std::size_t s = 0; s < origins.count(); ++s) {
+    const Vec3i p = origins.ijk(s);
+    ASSERT_LT(origins.values()[s].i, 20);
+    if (p.x < 20) {
+      ASSERT_EQ(field.values[p], example.values[p]);
+    }
+  }
+  EXPECT_EQ(runExemplar("synth e.vdb --keep nothing.vdb -o p.vdb", folder.path()).status, 2);
+}
+
+TEST(SynthCommand, SeveralExamplesAndTurnsComeOutInOneResult) {
+  const TestFolder folder;
+  const auto result = runExemplar("synth " + scene("balls") + kQuick + "--scale 1 --with " +
+                                      scene("grid") + " --rotations -o o.glb --origins o.vdb",
+                                  folder.path());
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Origins origins = readOriginsVdb(folder / "o.vdb");
+  std::int64_t second = 0, turned = 0;
+  for (const Origin& origin : origins.values()) {
+    second += origin.example == 1;
+    turned += origin.turns != 0;
+  }
+  EXPECT_GT(second, 100);
+  EXPECT_GT(turned, 100);
+  EXPECT_TRUE(meshHealth(readMesh(folder / "o.glb")).closed());
+}
+
+TEST(MeshCommand, TakesMaterialsAndDetailThroughOrigins) {
+  const TestFolder folder;
+  const std::string balls = scene("balls") + kQuick;
+  ASSERT_EQ(
+      runExemplar("synth " + balls + "--scale 1 -o o.vdb --origins origins.vdb", folder.path())
+          .status,
+      0);
+  const std::string dress = "mesh o.vdb --resolution 32 --origins origins.vdb --example ";
+  ASSERT_EQ(runExemplar("mesh o.vdb -o bare.glb", folder.path()).status, 0);
+  ASSERT_EQ(runExemplar(dress + scene("balls") + " -o one.glb", folder.path()).status, 0);
+  ASSERT_EQ(runExemplar(dress + scene("balls") + " --detail 2 -o two.glb", folder.path()).status,
+            0);
+  const TriangleMesh bare = readMesh(folder / "bare.glb"), one = readMesh(folder / "one.glb"),
+                     two = readMesh(folder / "two.glb");
+  EXPECT_FALSE(bare.materials.size() > 1);
+  EXPECT_GT(one.materials.size(), 1u);
+  EXPECT_GT(two.triangles.size(), 2 * one.triangles.size());
+  const double volume = meshHealth(one).signedVolume;
+  EXPECT_NEAR(meshHealth(two).signedVolume, volume, 0.1 * volume);
+  EXPECT_TRUE(meshHealth(two).closed());
+  // Another example, or the same sampled otherwise, is refused.
+  EXPECT_EQ(runExemplar(dress + scene("chainmail") + " -o no.glb", folder.path()).status, 2);
+  EXPECT_EQ(
+      runExemplar("mesh o.vdb --origins origins.vdb --example " + scene("balls") + " -o no.glb",
+                  folder.path())
+          .status,
+      2);
+  EXPECT_EQ(runExemplar("mesh o.vdb --origins origins.vdb -o no.glb", folder.path()).status, 2);
 }
 
 }  // namespace

@@ -132,6 +132,27 @@ TEST(Kept, AnExampleGoesOnBeyondItself) {
   EXPECT_LT(brokenFaces(example, result.field, result.origins, 1.5f), 0.02);
 }
 
+TEST(Kept, WhereOnlySolidIsKeptTheRestOfTheExampleShowsWhatIsAroundIt) {
+  const DistanceField example = balls({32, 28, 28}, 5, 5);
+  OptimizeOptions options = sized({40, 28, 28});
+  options.kept = Array3D<std::uint8_t>(options.size);
+  std::int64_t solid = 0, wanted = 0;
+  for (std::size_t s = 0; s < example.values.count(); ++s) {
+    (*options.kept)[example.values.ijk(s)] = example.values.values()[s] < 0;
+    wanted += example.values.values()[s] < 0;
+  }
+  const SynthesisResult result = synthesizeOptimized(example, options);
+  for (std::size_t s = 0; s < result.origins.count(); ++s) {
+    const Vec3i p = result.origins.ijk(s);
+    solid += result.field.values[p] < 0;
+    if ((*options.kept)[p]) {
+      ASSERT_EQ(result.field.values[p], example.values[p]);
+    }
+  }
+  EXPECT_GE(solid, wanted);
+  EXPECT_LT(static_cast<double>(solid), 2.0 * static_cast<double>(wanted));
+}
+
 TEST(Guide, SteersWhereTheSolidIs) {
   // Rolling ground of which the guide wants the high parts at one end, the low ones at the other;
   // and the other way round.
