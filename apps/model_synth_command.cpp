@@ -226,6 +226,8 @@ ModelOptions modelOptions(const Options& options, const LabelExample& example) {
   model.choice =
       options.choice.value_or(grid.size().z == 1 ? LabelChoice::Frequency : LabelChoice::Uniform);
   if (!options.block.empty()) model.block = parseCells(options.block, "--block");
+  // A picture is a window into something larger: it ends anywhere.
+  if (example.image) model.sides.fill(SideRule{SideRule::Kind::Free, {}});
   readSides(options, grid, model);
   readAxes(options.periodic, "--periodic", model.periodic.data(), 3);
   bool mirror[2] = {false, false};
@@ -448,9 +450,10 @@ void synth(const Options& options) {
 
 void addRequestOptions(CLI::App& command, Options& options) {
   command
-      .add_option("--side", options.sides,
-                  "what may stand at a side of the result: SIDE=example (the default), SIDE=free "
-                  "or SIDE=LABEL,...; left, right, front, back, bottom, top or all")
+      .add_option(
+          "--side", options.sides,
+          "what may stand at a side of the result: SIDE=example (the default), SIDE=free "
+          "(that of pictures) or SIDE=LABEL,...; left, right, front, back, bottom, top or all")
       ->allow_extra_args(false);
   command.add_option("--periodic", options.periodic,
                      "axes along which the result repeats: x, xy, ...");

@@ -217,11 +217,17 @@ TEST_F(LabelCommand, PicturesComeBackAsPictures) {
   }
   writePng(folder_ / "s.png", stripes);
   const CommandResult result =
-      run("synth s.png --engine model --piece 2 -o out.png --size 6,5,1 -q");
+      run("synth s.png --engine model --piece 2 -o out.png --size 7,5,1 -q");
   ASSERT_EQ(result.status, 0) << result.err;
   const Image8 out = decodeImage(readFile(folder_ / "out.png"), "out.png");
-  EXPECT_EQ(out.width, 12);
+  EXPECT_EQ(out.width, 14);
   EXPECT_EQ(out.height, 10);
+  // Pieces that overlap give one pixel more than cells.
+  ASSERT_EQ(
+      run("synth s.png --engine model --piece 2 --overlap -o over.png --size 9,5,1 -q").status, 0);
+  const Image8 over = decodeImage(readFile(folder_ / "over.png"), "over.png");
+  EXPECT_EQ(over.width, 10);
+  EXPECT_EQ(over.height, 6);
 }
 
 TEST_F(LabelCommand, FramesOfAnExampleBecomeFramesOfAResult) {
