@@ -101,34 +101,39 @@ void BlockPass::findBlocks() {
   });
   const Vec3i size = min(o.block, o.size);
   const int frames = std::min(span, o.frames);
-  for (const At& at : order) {
-    std::vector<std::int32_t> cells;
-    for (int i = 0; i < size.x; ++i) {
-      for (int j = 0; j < size.y; ++j) {
-        for (int k = 0; k < size.z; ++k) {
-          for (int t = 0; t < frames; ++t) {
-            Vec3i p = at.corner + Vec3i{i, j, k};
-            int frame = at.frame + t;
-            bool inside = true;
-            for (int axis = 0; axis < 3; ++axis) {
-              if (p[axis] < o.size[axis]) continue;
-              inside = inside && o.periodic[axis];
-              p[axis] -= o.size[axis];
+  blocks_.resize(order.size());
+  parallelFor(0, order.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const At& at = order[b];
+      std::vector<std::int32_t>& cells = blocks_[b];
+      cells.reserve(static_cast<std::size_t>(volume(size)) * frames);
+      for (int i = 0; i < size.x; ++i) {
+        for (int j = 0; j < size.y; ++j) {
+          for (int k = 0; k < size.z; ++k) {
+            for (int t = 0; t < frames; ++t) {
+              Vec3i p = at.corner + Vec3i{i, j, k};
+              int frame = at.frame + t;
+              bool inside = true;
+              for (int axis = 0; axis < 3; ++axis) {
+                if (p[axis] < o.size[axis]) continue;
+                inside = inside && o.periodic[axis];
+                p[axis] -= o.size[axis];
+              }
+              if (frame >= o.frames) {
+                inside = inside && o.loop;
+                frame -= o.frames;
+              }
+              const int c = inside ? problem_.cell(problem_.position(p, frame)) : -1;
+              if (c >= 0) cells.push_back(c);
             }
-            if (frame >= o.frames) {
-              inside = inside && o.loop;
-              frame -= o.frames;
-            }
-            const int c = inside ? problem_.cell(problem_.position(p, frame)) : -1;
-            if (c >= 0) cells.push_back(c);
           }
         }
       }
+      if (!std::is_sorted(cells.begin(), cells.end())) std::sort(cells.begin(), cells.end());
+      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     }
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    if (!cells.empty()) blocks_.push_back(std::move(cells));
-  }
+  });
+  std::erase_if(blocks_, [](const auto& cells) { return cells.empty(); });
 }
 
 /// A block comes a level after the last earlier block that changes a cell of it or beside it.

@@ -78,7 +78,30 @@ bool Catalog::propagateAll() {
     forgetQueue();
     return false;
   }
-  return propagate();
+  all_ = true;
+  lastSet_.assign(words_, 0);
+  const bool sound = propagate();
+  all_ = false;
+  return sound;
+}
+
+void Catalog::rememberSupport(const LabelWord* set) {
+  lastSet_.assign(set, set + words_);
+  lastSupport_.assign(static_cast<std::size_t>(words_) * network_->slots, 0);
+  forEachLabel(lastSet_, [&](int b) {
+    for (int s = 0; s < network_->slots; ++s) {
+      const LabelWord* row = tables_[s] + static_cast<std::size_t>(b) * words_;
+      for (int w = 0; w < words_; ++w) lastSupport_[s * words_ + w] |= row[w];
+    }
+  });
+}
+
+bool Catalog::supportsAll(int cell, int slot) const {
+  const auto there = domain(cell);
+  for (int w = 0; w < words_; ++w) {
+    if ((there[w] & ~lastSupport_[slot * words_ + w]) != 0) return false;
+  }
+  return true;
 }
 
 bool Catalog::restrict(int cell, std::span<const LabelWord> labels) {
@@ -180,7 +203,7 @@ template <int W>
 bool Catalog::run() {
   const int words = W > 0 ? W : words_;
   const int slots = network_->slots;
-  std::vector<LabelWord> set(words);
+  std::vector<LabelWord> set(words);  // where their number is not known before
   while (waiting_ > 0) {
     const int cell = queue_[head_ & ringMask_];
     ++head_, --waiting_;
@@ -192,8 +215,10 @@ bool Catalog::run() {
     LabelWord* mine = W > 0 ? fixed : set.data();
     for (int w = 0; w < words; ++w) mine[w] = source[w];
     const std::int32_t* near = network_->neighbor.data() + static_cast<std::size_t>(cell) * slots;
+    if (all_ && !std::equal(mine, mine + words, lastSet_.begin())) rememberSupport(mine);
     for (int s = 0; s < slots; ++s) {
-      if (s != skip && !update<W>(near[s], cell, mine, tables_[s], s)) return false;
+      if (s == skip || (all_ && supportsAll(near[s], s))) continue;
+      if (!update<W>(near[s], cell, mine, tables_[s], s)) return false;
     }
     for (const LabelNetwork::Link& l : network_->linksOf(cell)) {
       if (!update<W>(l.cell, cell, mine, tables_[l.relation], l.relation)) return false;

@@ -84,6 +84,8 @@ class Catalog {
   bool run();
   template <int W>
   bool update(int cell, int from, const LabelWord* set, const LabelWord* table, int slot);
+  void rememberSupport(const LabelWord* set);
+  bool supportsAll(int cell, int slot) const;
 
   const LabelNetwork* network_;
   int words_;
@@ -93,6 +95,8 @@ class Catalog {
   std::vector<std::uint8_t> queuedFrom_;  // kIdle, or the slot towards the one cell it changed for
   std::vector<const LabelWord*> tables_;
   std::vector<LabelWord> supported_;  // scratch
+  bool all_ = false;                  // many cells hold the same: remember what that supports
+  std::vector<LabelWord> lastSet_, lastSupport_;
 
   struct Saved {
     std::int32_t cell;

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel.h"
 #include "synth/model/blocks.h"
 #include "synth/model/catalog.h"
 #include "synth/model/choose.h"
@@ -51,11 +52,16 @@ std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& exa
   blank.origin = example.origin;
   blank.name = example.name;
   std::vector<LabelGrid> grids(problem.options().frames, blank);
-  for (std::int64_t at = 0; at < problem.positions(); ++at) {
-    const int cell = problem.cell(at);
-    if (cell < 0) continue;
-    grids[problem.frameAt(at)].cells[problem.cellAt(at)] = problem.labelAt(at, labels[cell]);
-  }
+  parallelFor(0, static_cast<std::size_t>(problem.positions()), 1 << 14,
+              [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                  const auto at = static_cast<std::int64_t>(i);
+                  const int cell = problem.cell(at);
+                  if (cell < 0) continue;
+                  grids[problem.frameAt(at)].cells[problem.cellAt(at)] =
+                      problem.labelAt(at, labels[cell]);
+                }
+              });
   return grids;
 }
 
