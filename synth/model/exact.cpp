@@ -86,7 +86,9 @@ void ExactSolver::Parts::link(int cell, int neighbor, const LabelSets& table) {
     if (!all) groups[allowed].push_back(firstVariable[cell] + rank);
     ++rank;
   });
-  for (const auto& [set, near] : groups) {
+  for (const auto& group : groups) {
+    const std::vector<LabelWord>& set = group.first;
+    const std::vector<int>& near = group.second;
     const int size = labelsIn(set), lost = labelsIn(there) - size;
     int condition = near[0];
     if (near.size() > 1 && size + lost > 2) {
