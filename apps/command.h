@@ -36,6 +36,7 @@ CommandRun addRenderCommand(CLI::App& app);
 CommandRun addSceneCommand(CLI::App& app);
 CommandRun addVoxelizeCommand(CLI::App& app);
 CommandRun addInfoCommand(CLI::App& app);
+CommandRun addCompareCommand(CLI::App& app);
 
 /// Synthesis that could not be completed: the command answers it with exit status 3.
 class Unfinished : public std::runtime_error {

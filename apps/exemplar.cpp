@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
       {"scene", exemplar::addSceneCommand(app)},
       {"voxelize", exemplar::addVoxelizeCommand(app)},
       {"info", exemplar::addInfoCommand(app)},
+      {"compare", exemplar::addCompareCommand(app)},
   };
 
   try {

@@ -73,6 +73,8 @@ void fromField(LabelExample& example, const LabelReading& options, const Progres
   sampling.padding = options.air;
   sampling.sceneSeed = options.sceneSeed;
   sampling.mesh = options.mesh;
+  sampling.cellSize = options.pointDistance;
+  sampling.heightScale = options.heightScale;
   FieldBlocksOptions blocks = options.blocks;
   if (!options.fieldBlock.empty()) blocks.block = parseCells(options.fieldBlock, "--field-block");
   QuantizedExample& field =
@@ -153,6 +155,14 @@ void addLabelReadingOptions(CLI::App& command, LabelReading& options) {
                   "how far blocks of one label may differ, voxels")
       ->check(CLI::Range(0.0, 16.0))
       ->capture_default_str();
+  command
+      .add_option("--cell-size", options.pointDistance,
+                  "distance of a height map's points, where the file does not say")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--height-scale", options.heightScale,
+                  "height of one step of a height map's integers")
+      ->check(CLI::PositiveNumber);
   addUpOption(command, options.mesh);
 }
 

@@ -34,6 +34,7 @@ struct LabelReading {
   ImageLabelsOptions image;
   std::string fieldBlock;     ///< samples a side of a distance field's blocks: "8", "8,8,12"
   FieldBlocksOptions blocks;  ///< the rest of how a field is cut
+  std::optional<double> pointDistance, heightScale;  ///< of a height map, world units
   std::optional<std::uint64_t> sceneSeed;
   MeshFileOptions mesh;
 };

@@ -228,6 +228,11 @@ ModelOptions modelOptions(const Options& options, const LabelExample& example) {
   if (!options.block.empty()) model.block = parseCells(options.block, "--block");
   // A picture is a window into something larger: it ends anywhere.
   if (example.image) model.sides.fill(SideRule{SideRule::Kind::Free, {}});
+  if (example.field) {
+    const std::array<bool, 6> cut = cutSides(example.field->example.field);
+    for (std::size_t side = 0; side < cut.size(); ++side)
+      if (cut[side]) model.sides[side].kind = SideRule::Kind::Free;
+  }
   readSides(options, grid, model);
   readAxes(options.periodic, "--periodic", model.periodic.data(), 3);
   bool mirror[2] = {false, false};

@@ -257,6 +257,20 @@ FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& 
   return blocks;
 }
 
+std::array<bool, 6> cutSides(const DistanceField& field) {
+  std::array<bool, 6> cut{};
+  const Vec3i last = field.size() - Vec3i{1, 1, 1};
+  for (std::size_t s = 0; s < field.values.count(); ++s) {
+    if (!(field.values.data()[s] < 0)) continue;
+    const Vec3i p = field.values.ijk(s);
+    for (int axis = 0; axis < 3; ++axis) {
+      cut[2 * axis] = cut[2 * axis] || p[axis] == 0;
+      cut[2 * axis + 1] = cut[2 * axis + 1] || p[axis] == last[axis];
+    }
+  }
+  return cut;
+}
+
 PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks,
                          const Array3D<Label>& labels) {
   if (labels.empty()) throw InputError("there are no labels to put blocks in place of");

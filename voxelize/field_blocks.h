@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -56,6 +57,10 @@ Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& option
 /// smaller than a block, or more than 65,536 labels. An empty grid when cancelled.
 FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& options = {},
                           const Progress& progress = {});
+
+/// At which sides of its box, in the order of `Side`, the example's solid is cut off: there it is a
+/// window into something larger, and what stands there need not stand at a result's sides.
+std::array<bool, 6> cutSides(const DistanceField& field);
 
 /// What a grid of labels shows as a field again, and where each sample came from.
 struct PlacedBlocks {

@@ -148,6 +148,13 @@ TEST(FieldBlocks, ChooseTheMemberThatAgreesWithItsNeighbors) {
     EXPECT_EQ(placed.field.values(i, 3, 5), placed.field.values(0, 3, 5));
 }
 
+TEST(FieldBlocks, KnowTheSidesWhereTheirExampleIsCut) {
+  using Sides = std::array<bool, 6>;
+  EXPECT_EQ(cutSides(ground({24, 24, 24})), (Sides{true, true, true, true, true, false}));
+  const DistanceField ball = lattice({20, 20, 20}, {20, 20, 20}, {0, 0, 0});
+  EXPECT_EQ(cutSides(ball), Sides{});
+}
+
 TEST(FieldBlocks, AreTheSameAtOneAndEightThreads) {
   const DistanceField field = ground({48, 48, 24});
   tbb::task_arena one(1), eight(8);

@@ -1,0 +1,238 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+// exemplar compare: both families on one example at one size, measured by one ruler. A run that is
+// finished is written at once and never made again.
+
+#include <CLI/CLI.hpp>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/command.h"
+#include "apps/comparison.h"
+#include "apps/terminal.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "measure/figures.h"
+#include "mesh/mesh_file.h"
+#include "sdf/vdb_file.h"
+
+namespace exemplar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string example, folder, scale;
+  std::vector<std::string> engines{"blocks", "optimize", "model"};
+  std::uint64_t firstSeed = 0;
+  int seeds = 3;
+  ExampleOptions reading;
+  PictureOptions picture;
+  CommonOptions common;
+};
+
+ComparedEngine parseEngine(const std::string& name) {
+  for (const ComparedEngine engine :
+       {ComparedEngine::Blocks, ComparedEngine::Optimize, ComparedEngine::Model})
+    if (name == engineName(engine)) return engine;
+  throw InputError("--engines " + name + ": expected blocks, optimize or model");
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw InputError(folder.string() + ": cannot be made a folder; name one that can");
+  }
+}
+
+/// What decides a run's result: a finished run with the same is not made again. The example counts
+/// with its samples, so that an edited file is another one.
+Json requestOf(const Options& options, const Example& example, const Vec3d& scale,
+               const std::string& engine, std::uint64_t seed) {
+  std::uint64_t hash = 1469598103934665603u;  // FNV-1a
+  for (const float value : example.field.values.values()) {
+    hash ^= std::bit_cast<std::uint32_t>(value);
+    hash *= 1099511628211u;
+  }
+  const Vec3i& n = example.field.size();
+  return {{"version", EXEMPLAR_VERSION},
+          {"example", options.example},
+          {"samples", {n.x, n.y, n.z}},
+          {"hash", hash},
+          {"scale", {scale.x, scale.y, scale.z}},
+          {"engine", engine},
+          {"seed", seed}};
+}
+
+/// A run that was finished before, if it was made by the same request and its files are there.
+std::optional<Json> finishedRun(const fs::path& file, const Json& request, const fs::path& folder) {
+  if (!fs::exists(file)) return std::nullopt;
+  const Json run = Json::parse(readFile(file), nullptr, false);
+  if (run.is_discarded() || !run.is_object() || run.value("request", Json()) != request)
+    return std::nullopt;
+  for (const char* part : {"mesh", "picture", "field", "origins"})
+    if (run.contains(part) && !fs::exists(folder / run.at(part).get<std::string>()))
+      return std::nullopt;
+  return run;
+}
+
+Json toJson(const std::vector<Figure>& figures) {
+  Json json;
+  for (const Figure& figure : figures) {
+    Json& value = json[figure.group][figure.key];
+    std::visit(
+        [&](const auto& v) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(v)>, std::monostate>) value = v;
+        },
+        figure.value);
+  }
+  return json;
+}
+
+Json makeRun(const Options& options, const Example& example, const Vec3d& scale,
+             const std::string& engine, std::uint64_t seed, const RenderOptions& picture,
+             Terminal& terminal) {
+  const fs::path folder = options.folder;
+  const std::string name = engine + "-" + std::to_string(seed);
+  terminal.step(name);
+  ComparedResult result = runEngine(parseEngine(engine), example, scale, seed, terminal.progress());
+  terminal.stopIfInterrupted();
+  Json run{{"engine", engine}, {"seed", seed}, {"status", result.status}};
+  if (result.labels) run["labels"] = *result.labels;
+  if (result.status != "complete") {
+    run["why"] = result.why;
+    return run;
+  }
+  const Vec3i& n = result.field.size();
+  run["samples"] = {n.x, n.y, n.z};
+  run["seconds"] = result.seconds;
+  if (result.violations) run["adjacency_violations"] = *result.violations;
+  MeasureInput input;
+  input.origins = &result.origins;
+  input.mesh = &result.mesh;
+  terminal.step("measuring " + name);
+  run["figures"] =
+      toJson(figures(measure(example.field, result.field, input, {}, terminal.progress())));
+  terminal.stopIfInterrupted();
+  terminal.step("drawing " + name);
+  const Image8 image = render(result.mesh, picture, terminal.progress());
+  terminal.stopIfInterrupted();
+  run["mesh"] = name + ".glb";
+  run["picture"] = name + ".png";
+  run["field"] = name + ".vdb";
+  run["origins"] = name + "-origins.vdb";
+  writeMesh(folder / (name + ".glb"), result.mesh, options.reading.mesh);
+  writePng(folder / (name + ".png"), image);
+  writeVdb(folder / (name + ".vdb"), result.field);
+  writeOriginsVdb(folder / (name + "-origins.vdb"), result.origins, result.field);
+  return run;
+}
+
+void say(const Json& run, bool again, Terminal& terminal) {
+  std::string text = "seed " + std::to_string(run.at("seed").get<std::uint64_t>()) + ": ";
+  if (run.at("status") == "complete") {
+    const Json& likeness = run.at("figures").at("likeness");
+    char figures[96];
+    std::snprintf(figures, sizeof figures, ", lp_dense %.2f, coverage %.2f",
+                  likeness.value("lp_dense", std::nan("")),
+                  likeness.value("coverage", std::nan("")));
+    text += readableSeconds(run.at("seconds").get<double>()) + figures;
+  } else {
+    text += run.at("status").get<std::string>() + ": " + run.at("why").get<std::string>();
+  }
+  terminal.say(run.at("engine").get<std::string>(), text + (again ? " (made before)" : ""));
+}
+
+void compare(const Options& options) {
+  const ThreadLimit limit(options.common.threads);
+  Terminal terminal(options.common.quiet);
+  for (const std::string& engine : options.engines) parseEngine(engine);
+  const RenderOptions picture = renderOptions(options.picture);
+  const fs::path folder = options.folder;
+  makeFolder(folder);
+  const Example example = loadExample(options.example, options.reading, terminal.progress());
+  terminal.stopIfInterrupted();
+  terminal.say("example", options.example + ": " + example.description);
+  const Vec3d scale = options.scale.empty() ? example.scale : parseTriple(options.scale, "--scale");
+
+  terminal.step("drawing the example");
+  writePng(folder / "example.png",
+           render(loadForPicture(options.example, options.reading, terminal.progress()), picture,
+                  terminal.progress()));
+  terminal.stopIfInterrupted();
+
+  const Vec3i& n = example.field.size();
+  Json comparison{
+      {"example", options.example},
+      {"description", example.description},
+      {"picture", "example.png"},
+      {"samples", {n.x, n.y, n.z}},
+      {"voxel_size", example.field.voxelSize},
+      {"scale", {scale.x, scale.y, scale.z}},
+      {"notes",
+       {"Every engine ran at its defaults on the same samples; the same code measured all results.",
+        "model keeps the adjacencies of the example's blocks exactly, up to the tolerance within "
+        "which blocks are one label; blocks and optimize keep none exactly and trade mismatch off "
+        "everywhere.",
+        "model's results are whole blocks, so their size may differ by less than half a block.",
+        "seconds are of synthesis alone, on all cores in use."}},
+      {"runs", Json::array()}};
+  for (int s = 0; s < options.seeds; ++s) {
+    for (const std::string& engine : options.engines) {
+      const std::uint64_t seed = options.firstSeed + static_cast<std::uint64_t>(s);
+      const Json request = requestOf(options, example, scale, engine, seed);
+      const fs::path file = folder / (engine + "-" + std::to_string(seed) + ".json");
+      std::optional<Json> run = finishedRun(file, request, folder);
+      const bool again = run.has_value();
+      if (!again) {
+        run = makeRun(options, example, scale, engine, seed, picture, terminal);
+        (*run)["request"] = request;
+        writeFile(file, run->dump(2) + "\n");
+      }
+      say(*run, again, terminal);
+      run->erase("request");
+      comparison["runs"].push_back(std::move(*run));
+    }
+  }
+  writeFile(folder / "compare.json", comparison.dump(2) + "\n");
+  writeFile(folder / "report.html", comparisonPage(comparison, folder));
+  terminal.say("figures", (folder / "compare.json").string());
+  terminal.say("report", (folder / "report.html").string());
+}
+
+}  // namespace
+
+CommandRun addCompareCommand(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "Run geometry and model synthesis on one example and measure both");
+  command->add_option("EXAMPLE", options->example, "a mesh, a volume, a height map or a scene")
+      ->required();
+  command
+      ->add_option(
+          "-o,--output", options->folder,
+          "the folder for meshes, pictures, compare.json and report.html; what it holds of "
+          "the same comparison is not made again")
+      ->required();
+  command->add_option("--seeds", options->seeds, "how many seeds each engine gets")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seed", options->firstSeed, "the first of them")->capture_default_str();
+  command->add_option("--engines", options->engines, "which: blocks, optimize, model")
+      ->delimiter(',')
+      ->option_text("blocks,optimize,model");
+  command->add_option("--scale", options->scale,
+                      "the results' size as a multiple of the example's: X,Y,Z or one number");
+  addExampleOptions(*command, options->reading);
+  addPictureOptions(*command, options->picture);
+  addCommonOptions(*command, options->common);
+  return [options] { compare(*options); };
+}
+
+}  // namespace exemplar

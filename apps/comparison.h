@@ -1,0 +1,48 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/example.h"
+#include "core/origin.h"
+#include "mesh/triangle_mesh.h"
+#include "sdf/distance_field.h"
+
+namespace exemplar {
+
+/// The ways to more of an example that are compared.
+enum class ComparedEngine {
+  Blocks,    ///< geometry synthesis by best-matching blocks (Lagae 2004)
+  Optimize,  ///< geometry synthesis by patch optimisation
+  Model,     ///< model synthesis on blocks of the same distance field (`voxelize/field_blocks.h`)
+};
+const char* engineName(ComparedEngine engine);
+
+/// What one engine made of the example with one seed.
+struct ComparedResult {
+  std::string status;  ///< "complete", "impossible", "unfinished", "refused" or "cancelled"
+  std::string why;     ///< where it is not complete
+  DistanceField field;
+  Origins origins;
+  TriangleMesh mesh;
+  double seconds = 0;                              ///< of synthesis alone
+  std::optional<std::int64_t> labels, violations;  ///< Model: adjacencies that the example has not
+};
+
+/// Runs one engine at its defaults. `scale`: the result's size as a multiple of the example's;
+/// Model's is rounded to whole blocks.
+ComparedResult runEngine(ComparedEngine engine, const Example& example, const Vec3d& scale,
+                         std::uint64_t seed, const Progress& progress);
+
+/// A page that shows what a comparison found: one file that opens from disk, with the pictures
+/// inside. `comparison` is what `compare.json` holds; pictures are read from `folder`.
+std::string comparisonPage(const nlohmann::ordered_json& comparison,
+                           const std::filesystem::path& folder);
+
+}  // namespace exemplar

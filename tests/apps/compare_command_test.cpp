@@ -1,0 +1,112 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+// Both families on one example: exemplar compare.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/file.h"
+#include "tests/apps/run_command.h"
+
+namespace exemplar {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+
+class CompareCommand : public testing::Test {
+ protected:
+  // Hills that repeat every eight samples: model synthesis knows how to go on.
+  CompareCommand() {
+    std::string pgm = "P2\n32 32\n255\n";
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x)
+        pgm += std::to_string(40 + 5 * std::abs(x % 8 - 4) + 4 * std::abs(y % 8 - 3)) + "\n";
+    writeFile(folder_ / "hills.pgm", pgm);
+  }
+  CommandResult compare(const std::string& more) const {
+    return runExemplar(
+        "compare hills.pgm -o made --cell-size 1 --height-scale 0.2 --size 120x90 --samples 1 " +
+            more,
+        folder_.path());
+  }
+  fs::path file(const std::string& name) const { return folder_ / "made" / name; }
+  json read(const std::string& name) const { return json::parse(readFile(file(name))); }
+
+  TestFolder folder_;
+};
+
+TEST_F(CompareCommand, RunsEveryEngineAndSaysWhatItFound) {
+  const CommandResult outcome = compare("--seeds 2");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json comparison = read("compare.json");
+  ASSERT_EQ(comparison.at("runs").size(), 6u);
+  for (const json& run : comparison.at("runs")) {
+    SCOPED_TRACE(run.dump(1));
+    const std::string name =
+        run.at("engine").get<std::string>() + "-" + std::to_string(run.at("seed").get<int>());
+    EXPECT_EQ(run.at("status"), "complete");
+    EXPECT_TRUE(fs::exists(file(name + ".glb")));
+    EXPECT_TRUE(fs::exists(file(name + ".png")));
+    EXPECT_TRUE(run.at("figures").at("likeness").at("lp_dense").is_number());
+    if (run.at("engine") == "model") {
+      EXPECT_EQ(run.at("adjacency_violations"), 0);
+    }
+  }
+}
+
+TEST_F(CompareCommand, TellsWhyAnEngineMadeNothing) {
+  // One block along x: the example does not show what could stand beside it.
+  ASSERT_EQ(compare("--seeds 1 --engines model --resolution 16").status, 0);
+  const json run = read("compare.json").at("runs")[0];
+  EXPECT_NE(run.at("status"), "complete");
+  EXPECT_FALSE(run.at("why").get<std::string>().empty());
+  EXPECT_THAT(readFile(file("report.html")), HasSubstr(run.at("status").get<std::string>()));
+}
+
+TEST_F(CompareCommand, NeverMakesAFinishedRunAgain) {
+  ASSERT_EQ(compare("--seeds 1 --engines blocks").status, 0);
+  const auto made = fs::last_write_time(file("blocks-0.glb"));
+  const json before = read("compare.json");
+  ASSERT_EQ(compare("--seeds 2 --engines blocks").status, 0);
+  EXPECT_EQ(fs::last_write_time(file("blocks-0.glb")), made);
+  EXPECT_EQ(read("compare.json").at("runs")[0], before.at("runs")[0]);
+  EXPECT_EQ(read("compare.json").at("runs").size(), 2u);
+
+  // Another request, a broken file or a missing one, and it is.
+  ASSERT_EQ(compare("--seeds 1 --engines blocks --scale 1").status, 0);
+  EXPECT_NE(fs::last_write_time(file("blocks-0.glb")), made);
+  writeFile(file("blocks-0.json"), "{");
+  EXPECT_EQ(compare("--seeds 1 --engines blocks").status, 0);
+  fs::remove(file("blocks-0.glb"));
+  EXPECT_EQ(compare("--seeds 1 --engines blocks").status, 0);
+  EXPECT_TRUE(fs::exists(file("blocks-0.glb")));
+}
+
+TEST_F(CompareCommand, WritesAPageThatStandsAlone) {
+  ASSERT_EQ(compare("--seeds 1 --engines blocks,model").status, 0);
+  const std::string page = readFile(file("report.html"));
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
+  EXPECT_THAT(page, HasSubstr("likeness.lp_dense"));
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+}
+
+TEST_F(CompareCommand, RefusesWhatItCannotDo) {
+  EXPECT_EQ(compare("--seeds 0").status, 2);
+  EXPECT_EQ(compare("--engines best").status, 2);
+  EXPECT_EQ(compare("--scale 1,0,1").status, 2);
+  writeFile(folder_ / "file", "not a folder");
+  EXPECT_EQ(runExemplar("compare hills.pgm -o file", folder_.path()).status, 2);
+  EXPECT_EQ(runExemplar("compare none.obj -o made", folder_.path()).status, 2);
+}
+
+}  // namespace
+}  // namespace exemplar
