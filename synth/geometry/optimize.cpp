@@ -49,6 +49,15 @@ int proportional(int p, int target, int source) {
              : static_cast<int>(std::llround(static_cast<double>(p) * (source - 1) / (target - 1)));
 }
 
+/// How far from its proportional place along an axis that is not stationary a patch may come from,
+/// samples. Where the result is not as long as the example, copied parts cannot all be in place:
+/// more for them to hold together.
+int placeWindow(const PyramidLevel& level, int axis) {
+  const double source = level.partSize[0][axis];
+  const double stretch = std::abs(level.targetSize[axis] / source - 1);
+  return std::max(1, static_cast<int>(source * std::clamp(stretch / 4, 1.0 / 32, 1.0 / 4)));
+}
+
 /// The coarsest level's start: blocks of random content, of a random part, kept to their place
 /// along axes that are not stationary.
 PyramidSources startFromRandomBlocks(const PyramidLevel& level, const StationaryAxes& stationary,
@@ -157,6 +166,7 @@ void refineAround(const Array3D<float>& source, const Array3D<float>& target,
       if (periodic[axis] && (p[axis] == 0 || p[axis] == n[axis] - 1)) outer.values()[s] = 1;
     }
   }
+  const SeamOptions around = options;
   const Array3D<std::uint8_t> kept = options.fixed ? *options.fixed : Array3D<std::uint8_t>(n);
   Vec3i half{0, 0, 0};
   for (int axis = 0; axis < 3; ++axis) half[axis] = periodic[axis] ? n[axis] / 2 : 0;
@@ -164,6 +174,11 @@ void refineAround(const Array3D<float>& source, const Array3D<float>& target,
     Array3D<std::uint8_t> fixed = rolled(kept, shift);
     for (std::size_t s = 0; s < fixed.count(); ++s) fixed.values()[s] |= outer.values()[s];
     options.fixed = &fixed;
+    Array3D<std::uint8_t> air;
+    if (around.air) {
+      air = rolled(*around.air, shift);
+      options.air = &air;
+    }
     Origins moved = rolled(origins, shift);
     refineSeams(source, rolled(target, shift), moved, options, progress);
     origins = rolled(moved, Vec3i{0, 0, 0} - shift);
@@ -189,6 +204,9 @@ void cutSeams(const PyramidLevel& level, const Array3D<float>& target, PyramidSo
     options.fixed = &fixed;
   }
   if (!level.usable.empty()) options.usable = &level.usable;
+  const Array3D<std::uint8_t> air = level.airSamples();
+  const Array3D<std::uint8_t> airWithin = air.empty() ? air : cropped(air);
+  if (!air.empty()) options.air = &airWithin;
   refineAround(source, cropped(clamped(target, kSeamTruncation)), level.periodic, options, origins,
                progress);
   if (!progress.cancelled() && alignPieces(source, origins, 1, options) > 0) {
@@ -228,6 +246,11 @@ class Assembly {
     SeamOptions seams = kFineSeams;
     if (options_.kept) seams.fixed = &*options_.kept;
     if (!sheet_.usable.empty()) seams.usable = &sheet_.usable;
+    Array3D<std::uint8_t> air = level.airSamples();
+    if (!air.empty()) {
+      air = withoutMargins(level, air);
+      seams.air = &air;
+    }
     alignPieces(copied, origins, 1, seams);
     refineAround(copied, clamped(withoutMargins(level, target), kSeamTruncation), options_.periodic,
                  seams, origins, progress);
@@ -341,12 +364,15 @@ void balanceExamples(const PyramidLevel& level, const std::vector<SourcePart>& p
   }
 }
 
-/// Whether there is both solid and air in what is kept.
+/// Whether there is both solid and air in what is kept; air within a voxel of the surface does not
+/// count, for the region may be the solid itself, sampled a little differently.
 bool keepsSurface(const DistanceField& example, const Array3D<std::uint8_t>& kept) {
   bool solid = false, air = false;
   for (std::size_t s = 0; s < kept.count(); ++s) {
     if (!kept.values()[s]) continue;
-    (example.values[kept.ijk(s)] < 0 ? solid : air) = true;
+    const float v = example.values[kept.ijk(s)];
+    solid = solid || v < 0;
+    air = air || v > static_cast<float>(example.voxelSize);
   }
   return solid && air;
 }
@@ -454,7 +480,7 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
       // along axes on which they differ in size.
       bool free = stationary[axis] || guided || given.kept || (axis == 0 && parts.size() > 1);
       for (const Vec3i& part : level.partSize) free = free || part[axis] != level.partSize[0][axis];
-      search.window[axis] = free ? -1 : std::max(1, level.source.size()[axis] / 32);
+      search.window[axis] = free ? -1 : placeWindow(level, axis);
     }
     if (!level.allowed.empty()) search.allowed = &level.allowed;
     const Vec3i size = level.framedTarget();

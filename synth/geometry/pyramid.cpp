@@ -145,6 +145,20 @@ std::size_t PyramidLevel::partOf(const Vec3i& cell) const {
   return part;
 }
 
+Array3D<std::uint8_t> PyramidLevel::airSamples() const {
+  if (low == Vec3i{0, 0, 0} && high == Vec3i{0, 0, 0}) return {};
+  Array3D<std::uint8_t> air(framedTarget());
+  const Vec3i end = before + targetSize;
+  for (std::size_t s = 0; s < air.count(); ++s) {
+    const Vec3i p = air.ijk(s);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (low[axis] > 0 && p[axis] <= before[axis]) air.values()[s] = 1;
+      if (high[axis] > 0 && p[axis] >= end[axis] - 1) air.values()[s] = 1;
+    }
+  }
+  return air;
+}
+
 PyramidLevel makeLevel(std::span<const SourcePart> parts, int l, const PyramidOptions& options) {
   const int shrink = 1 << l;
   const int sides = airSides(parts);

@@ -71,6 +71,9 @@ struct PyramidLevel {
   Vec3i framedTarget() const { return targetSize + before + after; }
   /// The part that a sample of `source` belongs to.
   std::size_t partOf(const Vec3i& cell) const;
+  /// Where the target takes nothing solid, of its size: in its frame of air, and the outermost
+  /// layer of the result inside of it. Empty where there is no frame.
+  Array3D<std::uint8_t> airSamples() const;
   /// The source of a kept sample of the target.
   Vec3i keptSource(const Vec3i& p) const { return p - before + first[0]; }
 };

@@ -29,7 +29,9 @@ class SeamEnergy {
       : example_(example), target_(target), options_(options) {}
 
   bool possible(const Vec3i& x, const Vec3i& offset) const {
-    return example_.contains(x + offset) && (!options_.usable || (*options_.usable)[x + offset]);
+    const Vec3i cell = x + offset;
+    if (!example_.contains(cell) || (options_.usable && !(*options_.usable)[cell])) return false;
+    return !(options_.air && (*options_.air)[x] && example_[cell] < 0);
   }
   bool fixed(const Vec3i& x) const { return options_.fixed && (*options_.fixed)[x]; }
 
@@ -239,7 +241,7 @@ int alignPieces(const Array3D<float>& example, Origins& origins, int reach,
       const Vec3i offset = piece.offset + Vec3i{n % side, n / side % side, n / side / side} -
                            Vec3i{reach, reach, reach};
       if (!example.contains(low + offset) || !example.contains(high + offset)) continue;
-      if (options.usable &&
+      if ((options.usable || options.air) &&
           !std::all_of(piece.samples.begin(), piece.samples.end(),
                        [&](const Vec3i& x) { return energy.possible(x, offset); })) {
         continue;

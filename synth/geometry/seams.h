@@ -21,6 +21,8 @@ struct SeamOptions {
   const Array3D<std::uint8_t>* fixed = nullptr;
   /// Samples of the example that may be copied, where not 0: of its size, or none for all.
   const Array3D<std::uint8_t>* usable = nullptr;
+  /// Samples of the result that take nothing solid, where not 0: of its size, or none.
+  const Array3D<std::uint8_t>* air = nullptr;
 };
 
 /// Moves the seams between copied pieces to where both sides agree best.

@@ -196,5 +196,28 @@ TEST(Optimize, RefusesOptionsOutOfRange) {
   EXPECT_THROW(synthesizeOptimized(DistanceField{}, sized({8, 8, 8})), InputError);
 }
 
+TEST(Optimize, WhereAnAxisIsNotStationaryPartsStillHoldTogether) {
+  // Hills whose ground rises along x, made twice as long: copied parts cannot all be in place, and
+  // must not be stretched sample by sample either.
+  DistanceField example = ground({40, 32, 24}, 3);
+  for (std::size_t s = 0; s < example.values.count(); ++s) {
+    example.values.values()[s] -= 0.2f * static_cast<float>(example.values.ijk(s).x - 20);
+  }
+  OptimizeOptions options = sized({80, 32, 24});
+  options.stationary = StationaryAxes{false, true, false};
+  const SynthesisResult result = synthesizeOptimized(example, options);
+  std::int64_t seams = 0, faces = 0;
+  double low = 0, high = 0;
+  for (std::size_t s = 0; s < result.origins.count(); ++s) {
+    const Vec3i p = result.origins.ijk(s);
+    (p.x < 40 ? low : high) += result.field.values.values()[s] < 0;
+    if (p.x + 1 == 80) continue;
+    ++faces;
+    seams += result.origins[p + Vec3i{1, 0, 0}].cell() - result.origins[p].cell() != Vec3i{1, 0, 0};
+  }
+  EXPECT_LT(static_cast<double>(seams) / static_cast<double>(faces), 0.12);
+  EXPECT_GT(high, 1.2 * low);  // and the ground still rises
+}
+
 }  // namespace
 }  // namespace exemplar

@@ -177,6 +177,45 @@ TEST(AlignPieces, NeverRaisesTheCostOfFaces) {
   }
 }
 
+TEST(RefineSeams, HonoursWhatIsFixedUsableAndAir) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const Puzzle p = puzzle(seed);
+    const Vec3i n = p.origins.size();
+    Array3D<std::uint8_t> fixed(n), usable(p.example.size(), 1), air(n);
+    std::int64_t moved = 0;
+    for (std::size_t s = 0; s < fixed.count(); ++s) {
+      fixed.values()[s] = p.origins.ijk(s).y < 9;
+      air.values()[s] = p.origins.ijk(s).x < 6;
+    }
+    for (std::size_t s = 0; s < usable.count(); ++s) usable.values()[s] = usable.ijk(s).z > 8;
+    SeamOptions options;
+    Origins free = p.origins;
+    refineSeams(p.example, p.target, free, options);
+    options.fixed = &fixed;
+    options.usable = &usable;
+    options.air = &air;
+    Origins held = p.origins;
+    refineSeams(p.example, p.target, held, options);
+    int freely[3] = {};
+    for (std::size_t s = 0; s < fixed.count(); ++s) {
+      const Origin before = p.origins.values()[s];
+      const auto breaks = [&](const Origin& after, int rule) {
+        if (after == before) return false;
+        if (rule == 0) return fixed.values()[s] != 0;
+        if (rule == 1) return usable[after.cell()] == 0;
+        return air.values()[s] && p.example[after.cell()] < 0;
+      };
+      for (int rule = 0; rule < 3; ++rule) {
+        ASSERT_FALSE(breaks(held.values()[s], rule)) << rule;
+        freely[rule] += breaks(free.values()[s], rule);
+      }
+      moved += held.values()[s] != before;
+    }
+    EXPECT_GT(moved, 0);
+    for (const int count : freely) EXPECT_GT(count, 0);
+  }
+}
+
 TEST(RefineSeams, SameBytesAtAnyNumberOfThreads) {
   const Puzzle p = puzzle(7, {40, 40, 30});
   Origins one = p.origins, eight = p.origins;
