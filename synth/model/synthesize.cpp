@@ -70,20 +70,25 @@ Labelling label(const ModelProblem& problem, const LabelSets& base, const LabelC
   // Metropolis needs something to compare with.
   const ModelMethod method =
       problem.options().metropolis ? ModelMethod::Blocks : problem.options().method;
-  std::optional<std::vector<Label>> start;
-  if (method != ModelMethod::Blocks) {
-    Labelling whole = labelWhole(problem, base, chooser, statistics, progress);
-    if (method == ModelMethod::Whole || whole.status != ModelStatus::Unfinished) return whole;
+  // Where blocks are an alternative the whole is not worked on for minutes.
+  constexpr int kPatience = 20;
+  const auto whole = [&](std::optional<int> patience) {
+    return labelWhole(problem, base, chooser, statistics, progress, patience);
+  };
+  if (method == ModelMethod::Whole) return whole(std::nullopt);
+  if (method == ModelMethod::Auto) {
+    Labelling soon = whole(kPatience);
+    if (soon.status != ModelStatus::Unfinished) return soon;
   }
-  start = findTiledStart(problem, base, chooser, statistics, progress);
-  if (!start && method == ModelMethod::Blocks) {
+  std::optional<std::vector<Label>> start =
+      findTiledStart(problem, base, chooser, statistics, progress);
+  if (!start) {
     // No small tile repeats: any labelling of the whole will do to begin with.
-    Labelling whole = labelWhole(problem, base, chooser, statistics, progress);
-    if (whole.status != ModelStatus::Complete) return whole;
-    start = std::move(whole.labels);
+    Labelling patient = whole(std::nullopt);
+    if (patient.status != ModelStatus::Complete || method == ModelMethod::Auto) return patient;
+    start = std::move(patient.labels);
   }
   if (progress.cancelled()) return {ModelStatus::Cancelled, {}};
-  if (!start) return {ModelStatus::Unfinished, {}};
   statistics.whole = false;
   return labelInBlocks(problem, base, chooser, std::move(*start), statistics, progress);
 }

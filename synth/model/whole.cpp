@@ -17,6 +17,8 @@ namespace {
 
 /// How far a region reaches that is taken back, in cells: the first tries are small.
 constexpr std::array<int, 8> kReach{2, 3, 4, 6, 8, 12, 16, 24};
+/// From here on the exact solver may take a second.
+constexpr int kLarge = 8;
 /// At last everything is taken back, unless that is more labels than the exact solver could hold.
 constexpr int kEverywhere = 1 << 20;
 constexpr std::int64_t kMostLabelsAtOnce = 4'000'000;
@@ -26,13 +28,14 @@ constexpr int kMargin = 3;
 class WholePass {
  public:
   WholePass(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-            ModelStatistics& statistics, const Progress& progress)
+            ModelStatistics& statistics, const Progress& progress, std::optional<int> patience)
       : problem_(problem),
         network_(problem.network()),
         base_(base),
         chooser_(chooser),
         statistics_(statistics),
         progress_(progress),
+        patience_(patience),
         catalog_(network_),
         draws_(0) {
     for (int c = 0; c < network_.cells; ++c) catalog_.setDomain(c, base[c]);
@@ -53,6 +56,7 @@ class WholePass {
   const LabelChooser& chooser_;
   ModelStatistics& statistics_;
   const Progress& progress_;
+  std::optional<int> patience_;
   Catalog catalog_;
   std::uint32_t draws_;
 
@@ -222,6 +226,9 @@ ModelStatus WholePass::repair(int cell) {
     ++statistics_.repairs;
     const ModelStatus status = repairWithin(cell, kReach[r]);
     if (progress_.cancelled()) return ModelStatus::Cancelled;
+    if (status == ModelStatus::Unfinished && kReach[r] >= kLarge && patience_ && --*patience_ < 0) {
+      return status;
+    }
     if (status != ModelStatus::Unfinished) {
       lastRepaired_ = cell;
       lastReach_ = static_cast<int>(r);
@@ -274,8 +281,8 @@ Labelling WholePass::run() {
 
 Labelling labelWhole(const ModelProblem& problem, const LabelSets& base,
                      const LabelChooser& chooser, ModelStatistics& statistics,
-                     const Progress& progress) {
-  return WholePass(problem, base, chooser, statistics, progress).run();
+                     const Progress& progress, std::optional<int> patience) {
+  return WholePass(problem, base, chooser, statistics, progress, patience).run();
 }
 
 }  // namespace exemplar

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/progress.h"
@@ -22,10 +23,11 @@ struct Labelling {
 /// loses all its labels so is repaired: a region around it is taken back and labelled anew, by
 /// search and then exactly, and grows until that succeeds.
 ///
+/// With `patience`, ends Unfinished after so many large regions that came to nothing.
 /// Ends with Impossible where the region has grown to everything and the exact solver proves that
 /// nothing fits; with Unfinished where it could not tell.
 Labelling labelWhole(const ModelProblem& problem, const LabelSets& base,
                      const LabelChooser& chooser, ModelStatistics& statistics,
-                     const Progress& progress);
+                     const Progress& progress, std::optional<int> patience = std::nullopt);
 
 }  // namespace exemplar
