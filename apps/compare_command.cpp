@@ -8,11 +8,11 @@
 #include <bit>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "apps/command.h"
 #include "apps/comparison.h"
+#include "apps/json.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -23,7 +23,6 @@
 namespace exemplar {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 struct Options {
@@ -60,12 +59,11 @@ Json requestOf(const Options& options, const Example& example, const Vec3d& scal
     hash ^= std::bit_cast<std::uint32_t>(value);
     hash *= 1099511628211u;
   }
-  const Vec3i& n = example.field.size();
   return {{"version", EXEMPLAR_VERSION},
           {"example", options.example},
-          {"samples", {n.x, n.y, n.z}},
+          {"samples", toJson(example.field.size())},
           {"hash", hash},
-          {"scale", {scale.x, scale.y, scale.z}},
+          {"scale", toJson(scale)},
           {"engine", engine},
           {"seed", seed}};
 }
@@ -82,19 +80,6 @@ std::optional<Json> finishedRun(const fs::path& file, const Json& request, const
   return run;
 }
 
-Json toJson(const std::vector<Figure>& figures) {
-  Json json;
-  for (const Figure& figure : figures) {
-    Json& value = json[figure.group][figure.key];
-    std::visit(
-        [&](const auto& v) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(v)>, std::monostate>) value = v;
-        },
-        figure.value);
-  }
-  return json;
-}
-
 Json makeRun(const Options& options, const Example& example, const Vec3d& scale,
              const std::string& engine, std::uint64_t seed, const RenderOptions& picture,
              Terminal& terminal) {
@@ -109,8 +94,7 @@ Json makeRun(const Options& options, const Example& example, const Vec3d& scale,
     run["why"] = result.why;
     return run;
   }
-  const Vec3i& n = result.field.size();
-  run["samples"] = {n.x, n.y, n.z};
+  run["samples"] = toJson(result.field.size());
   run["seconds"] = result.seconds;
   if (result.violations) run["adjacency_violations"] = *result.violations;
   MeasureInput input;
@@ -167,14 +151,13 @@ void compare(const Options& options) {
                   terminal.progress()));
   terminal.stopIfInterrupted();
 
-  const Vec3i& n = example.field.size();
   Json comparison{
       {"example", options.example},
       {"description", example.description},
       {"picture", "example.png"},
-      {"samples", {n.x, n.y, n.z}},
+      {"samples", toJson(example.field.size())},
       {"voxel_size", example.field.voxelSize},
-      {"scale", {scale.x, scale.y, scale.z}},
+      {"scale", toJson(scale)},
       {"notes",
        {"Every engine ran at its defaults on the same samples; the same code measured all results.",
         "model keeps the adjacencies of the example's blocks exactly, up to the tolerance within "

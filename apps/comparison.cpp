@@ -4,12 +4,11 @@
 #include "apps/comparison.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "apps/command.h"
+#include "apps/terminal.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "reconstruct/reconstruct.h"
@@ -99,7 +98,7 @@ ComparedResult runEngine(ComparedEngine engine, const Example& example, const Ve
   const Vec3i size = scaled(example.field.size(), scale);
   requireMemory(kBytesPerSample * static_cast<double>(volume(size)),
                 "a result of " + readableSize(size), "use a lower --resolution or --scale");
-  const auto began = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   if (engine == ComparedEngine::Blocks) {
     BlocksOptions options;
     options.size = size;
@@ -120,7 +119,7 @@ ComparedResult runEngine(ComparedEngine engine, const Example& example, const Ve
       result.why = error.what();
     }
   }
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  result.seconds = stopwatch.seconds();
   if (result.status != "complete") return result;
   result.mesh = reconstructSurface(result.field, result.origins,
                                    {example.field, example.mesh ? &*example.mesh : nullptr},

@@ -5,16 +5,14 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "apps/comparison.h"
+#include "apps/json.h"
 #include "core/file.h"
 
 namespace exemplar {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string base64(std::string_view bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "apps/json.h"
 #include "apps/label_example.h"
 #include "apps/terminal.h"
 #include "core/error.h"
@@ -21,8 +21,6 @@
 
 namespace exemplar {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string example, json;
@@ -36,8 +34,6 @@ std::string percent(double share) {
   std::snprintf(text, sizeof text, share < 0.01 ? "%.2g %%" : "%.1f %%", 100 * share);
   return text;
 }
-
-Json toJson(const Vec3i& v) { return {v.x, v.y, v.z}; }
 
 /// A mesh without cells to cut it along: what is sound about it.
 Json meshInfo(const Options& options, Terminal& terminal) {

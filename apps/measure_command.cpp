@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "apps/command.h"
+#include "apps/json.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -70,19 +70,6 @@ Example loadResult(const Options& options, const Example& example, const Origins
     throw InputError(options.result + ": " + error.what());
   }
   return result;
-}
-
-nlohmann::ordered_json toJson(const std::vector<Figure>& figures) {
-  nlohmann::ordered_json json;
-  for (const Figure& figure : figures) {
-    nlohmann::ordered_json& value = json[figure.group][figure.key];
-    std::visit(
-        [&](const auto& v) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(v)>, std::monostate>) value = v;
-        },
-        figure.value);
-  }
-  return json;
 }
 
 void measureFiles(const Options& options) {

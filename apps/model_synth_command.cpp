@@ -5,14 +5,13 @@
 // these what the example was: a grid of labels, a picture, or the example's model pieces.
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "apps/command.h"
+#include "apps/json.h"
 #include "apps/label_example.h"
 #include "apps/terminal.h"
 #include "core/error.h"
@@ -42,16 +41,6 @@ struct Options {
   LabelReading reading;
   PictureOptions picture;
   CommonOptions common;
-};
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 Vec3i resultSize(const Options& options, const LabelExample& example) {
@@ -309,8 +298,6 @@ AdjacencyOptions adjacencyOptions(const Options& options) {
   return adjacency;
 }
 
-nlohmann::ordered_json toJson(const Vec3i& v) { return {v.x, v.y, v.z}; }
-
 /// The path of one frame of a sequence: `roll.txt` becomes `roll_007.txt`.
 std::filesystem::path framePath(const std::filesystem::path& path, std::size_t frame) {
   char number[16];
@@ -427,7 +414,7 @@ void synth(const Options& options) {
   }
   if (!options.stats.empty()) {
     const ModelStatistics& s = result.statistics;
-    const nlohmann::ordered_json stats = {
+    const Json stats = {
         {"example", options.examples.front()},
         {"output", options.output},
         {"engine", "model"},

@@ -5,12 +5,11 @@
 // mesh with the example's materials.
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "apps/json.h"
 #include "apps/synth_control.h"
 #include "apps/terminal.h"
 #include "core/error.h"
@@ -48,17 +47,6 @@ struct Options {
 
 constexpr const char* kOutputEndings = ".obj .ply .stl .off .glb .vdb .png .pgm .asc";
 
-/// Seconds since it was made.
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-};
-
 /// The result's size in samples: the example's, scaled, at least one a side.
 Vec3i resultSize(const Example& example, const Vec3d& scale) {
   Vec3i size;
@@ -77,7 +65,7 @@ Vec3i resultSize(const Example& example, const Vec3d& scale) {
 }
 
 SynthesisResult synthesize(const Options& options, const Examples& examples, const Vec3i& size,
-                           nlohmann::ordered_json& stats, Terminal& terminal) {
+                           Json& stats, Terminal& terminal) {
   if (options.method == Method::Optimize) {
     OptimizeOptions optimize =
         optimizeOptions(options.control, examples, size, options.reading, terminal.progress());
@@ -106,8 +94,8 @@ SynthesisResult synthesize(const Options& options, const Examples& examples, con
 }
 
 /// Says so where the result is all solid or all empty, and what to change.
-void warnOfCollapse(const DistanceField& example, const DistanceField& result,
-                    nlohmann::ordered_json& stats, Terminal& terminal) {
+void warnOfCollapse(const DistanceField& example, const DistanceField& result, Json& stats,
+                    Terminal& terminal) {
   const Occupancy before(example), after(result);
   CollapseSigns signs;
   signs.exampleOccupancy = solidFraction(before);
@@ -143,9 +131,7 @@ TriangleMesh reconstruct(const Options& options, const Examples& examples,
       .mesh;
 }
 
-nlohmann::ordered_json toJson(const Vec3i& v) { return {v.x, v.y, v.z}; }
-
-nlohmann::ordered_json toJson(const MeshHealth& health) {
+Json toJson(const MeshHealth& health) {
   return {{"triangles", health.triangles},
           {"vertices", health.vertices},
           {"components", health.components},
@@ -181,14 +167,13 @@ void synth(const Options& options) {
 
   const Vec3d scale = options.scale.empty() ? example.scale : parseTriple(options.scale, "--scale");
   const Vec3i size = resultSize(example, scale);
-  nlohmann::ordered_json stats = {
-      {"example", options.example},
-      {"output", options.output},
-      {"method", options.method == Method::Blocks ? "blocks" : "optimize"},
-      {"seed", options.seed},
-      {"example_samples", toJson(example.field.size())},
-      {"result_samples", toJson(size)},
-      {"voxel_size", example.field.voxelSize}};
+  Json stats = {{"example", options.example},
+                {"output", options.output},
+                {"method", options.method == Method::Blocks ? "blocks" : "optimize"},
+                {"seed", options.seed},
+                {"example_samples", toJson(example.field.size())},
+                {"result_samples", toJson(size)},
+                {"voxel_size", example.field.voxelSize}};
   const Stopwatch synthesis;
   SynthesisResult result = synthesize(options, examples, size, stats, terminal);
   if (result.status == SynthesisStatus::Cancelled) throw Interrupted();

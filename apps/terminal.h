@@ -53,6 +53,17 @@ class Terminal {
   Progress progress_;
 };
 
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
 /// "12,345,678".
 std::string withThousands(long long n);
 /// "0.83 s", "12 s", "3 min 20 s".
