@@ -71,7 +71,7 @@ Labelling label(const ModelProblem& problem, const LabelSets& base, const LabelC
   const ModelMethod method =
       problem.options().metropolis ? ModelMethod::Blocks : problem.options().method;
   // Where blocks are an alternative the whole is not worked on for minutes.
-  constexpr int kPatience = 20;
+  constexpr int kPatience = 8;
   const auto whole = [&](std::optional<int> patience) {
     return labelWhole(problem, base, chooser, statistics, progress, patience);
   };

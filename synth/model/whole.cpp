@@ -16,9 +16,9 @@ namespace exemplar {
 namespace {
 
 /// How far a region reaches that is taken back, in cells: the first tries are small.
-constexpr std::array<int, 8> kReach{2, 3, 4, 6, 8, 12, 16, 24};
+constexpr std::array<int, 7> kReach{2, 3, 4, 6, 9, 16, 24};
 /// From here on the exact solver may take a second.
-constexpr int kLarge = 8;
+constexpr int kLarge = 9;
 /// At last everything is taken back, unless that is more labels than the exact solver could hold.
 constexpr int kEverywhere = 1 << 20;
 constexpr std::int64_t kMostLabelsAtOnce = 4'000'000;
