@@ -7,5 +7,5 @@ cd "$(dirname "$0")/.."
 scripts/build.sh exemplar
 mkdir -p out
 echo "== synthesizing: scenes/chainmail.toml -> out/chainmail.glb, out/chainmail.png"
-build/release/apps/exemplar synth scenes/chainmail.toml --method blocks \
+build/release/apps/exemplar synth scenes/chainmail.toml \
   -o out/chainmail.glb --preview out/chainmail.png
