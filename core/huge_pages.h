@@ -10,9 +10,9 @@
 namespace exemplar {
 
 /// Memory for `bytes`, aligned to 64. From two megabytes on it is aligned to that, and Linux is
-/// asked to back it with huge pages: what is read here and there in a large array then costs no
-/// walk through page tables (a third of the time of an exact match), and what is written first
-/// costs 512 times fewer faults. Throws `std::bad_alloc`.
+/// asked to back it with huge pages: what is read here and there in a large array then costs fewer
+/// walks through page tables (docs/matching.md measures it), and what is written first costs up to
+/// 512 times fewer faults. Throws `std::bad_alloc`.
 void* allocateInHugePages(std::size_t bytes);
 void freeHugePages(void* memory) noexcept;
 

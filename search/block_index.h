@@ -46,8 +46,8 @@ struct BlockIndexStatistics {
 template <class Sample>
 class BlockIndex {
  public:
-  /// Takes the sources; `block` is any box that fits into all of them. About 5 to 8 bytes a sample
-  /// beyond the sources with boxes of side 2, about 55 bytes a position with side 1. Parallel,
+  /// Takes the sources; `block` is any box that fits into all of them. About 9 to 12 bytes a sample
+  /// beyond the sources with boxes of side 2, about 50 bytes a position with side 1. Parallel,
   /// deterministic. Throws `InputError` when a block does not fit, nothing is allowed, or memory
   /// does not suffice.
   BlockIndex(std::vector<Array3D<Sample>> sources, const Vec3i& block,
