@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -34,6 +35,17 @@ void addUpOption(CLI::App& command, MeshFileOptions& options) {
       ->option_text("auto|y|z");
 }
 
+void addHeightMapOptions(CLI::App& command, std::optional<double>& cellSize,
+                         std::optional<double>& heightScale) {
+  command
+      .add_option("--cell-size", cellSize,
+                  "distance of a height map's points, where the file does not say")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--height-scale", heightScale, "height of one step of a height map's integers")
+      ->check(CLI::PositiveNumber);
+}
+
 void addExampleOptions(CLI::App& command, ExampleOptions& options) {
   command
       .add_option("--resolution", options.resolution,
@@ -45,14 +57,7 @@ void addExampleOptions(CLI::App& command, ExampleOptions& options) {
       ->check(CLI::Range(0, 1024));
   command.add_option("--scene-seed", options.sceneSeed,
                      "another sample of a scene's own random process");
-  command
-      .add_option("--cell-size", options.cellSize,
-                  "distance of a height map's points, where the file does not say")
-      ->check(CLI::PositiveNumber);
-  command
-      .add_option("--height-scale", options.heightScale,
-                  "height of one step of a height map's integers")
-      ->check(CLI::PositiveNumber);
+  addHeightMapOptions(command, options.cellSize, options.heightScale);
   addUpOption(command, options.mesh);
 }
 
@@ -101,6 +106,19 @@ Vec3d parseTriple(const std::string& text, const std::string& option) {
     throw InputError(option + " " + text + ": expected one number or three, as in 2,2,1");
   }
   return {numbers[0], numbers[1], numbers[2]};
+}
+
+Vec3i scaledSize(const Vec3i& size, const Vec3d& scale, const std::string& unit) {
+  Vec3i scaled;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double n = std::round(size[axis] * scale[axis]);
+    if (!(n >= 1 && n <= 32767)) {
+      throw InputError("--scale: the result would be " + std::to_string(n) + " " + unit +
+                       " long; expected 1 to 32767");
+    }
+    scaled[axis] = static_cast<int>(n);
+  }
+  return scaled;
 }
 
 void requireOutput(const std::filesystem::path& path, const std::string& endings) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -53,6 +54,9 @@ void addCommonOptions(CLI::App& command, CommonOptions& options);
 
 /// Options of reading and sampling an example: `--resolution`, `--padding`, `--up`, ...
 void addExampleOptions(CLI::App& command, ExampleOptions& options);
+/// `--cell-size` and `--height-scale`: the units of height maps that do not say them.
+void addHeightMapOptions(CLI::App& command, std::optional<double>& cellSize,
+                         std::optional<double>& heightScale);
 /// `--up` alone, for commands that only read or write meshes.
 void addUpOption(CLI::App& command, MeshFileOptions& options);
 
@@ -68,6 +72,10 @@ RenderOptions renderOptions(const PictureOptions& options);
 /// "2,2,1", or "2" for all three; throws `InputError` naming `option` unless each is a positive
 /// number.
 Vec3d parseTriple(const std::string& text, const std::string& option);
+
+/// The size of an example in `unit`s ("samples"), scaled. Throws `InputError` unless each side has
+/// 1 to 32,767 of them.
+Vec3i scaledSize(const Vec3i& size, const Vec3d& scale, const std::string& unit);
 
 /// Refuses an output whose ending is none of `endings` (".obj .ply"), or whose folder is not there
 /// or not writable, before any work is done.

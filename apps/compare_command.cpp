@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <bit>
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -118,15 +117,22 @@ Json makeRun(const Options& options, const Example& example, const Vec3d& scale,
   return run;
 }
 
+/// A figure to two digits; "none" where there was nothing to measure.
+std::string readableFigure(const Json& group, const char* key) {
+  const auto value = group.find(key);
+  if (value == group.end() || !value->is_number()) return "none";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value->get<double>());
+  return text;
+}
+
 void say(const Json& run, bool again, Terminal& terminal) {
   std::string text = "seed " + std::to_string(run.at("seed").get<std::uint64_t>()) + ": ";
   if (run.at("status") == "complete") {
     const Json& likeness = run.at("figures").at("likeness");
-    char figures[96];
-    std::snprintf(figures, sizeof figures, ", lp_dense %.2f, coverage %.2f",
-                  likeness.value("lp_dense", std::nan("")),
-                  likeness.value("coverage", std::nan("")));
-    text += readableSeconds(run.at("seconds").get<double>()) + figures;
+    text += readableSeconds(run.at("seconds").get<double>());
+    for (const char* key : {"lp_dense", "coverage"})
+      text += std::string(", ") + key + " " + readableFigure(likeness, key);
   } else {
     text += run.at("status").get<std::string>() + ": " + run.at("why").get<std::string>();
   }

@@ -23,17 +23,6 @@ namespace {
 
 constexpr double kBytesPerSample = 80;  // of the field, origins, search and surface
 
-/// The example's size in `unit`s, scaled.
-Vec3i scaled(const Vec3i& size, const Vec3d& scale) {
-  Vec3i result;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double n = std::max(1.0, std::round(size[axis] * scale[axis]));
-    if (!(n <= 32767)) throw InputError("--scale: a result has at most 32,767 samples a side");
-    result[axis] = static_cast<int>(n);
-  }
-  return result;
-}
-
 void takeGeometry(SynthesisResult made, ComparedResult& result) {
   result.status = made.status == SynthesisStatus::Complete ? "complete" : "cancelled";
   result.field = std::move(made.field);
@@ -51,7 +40,7 @@ void runModel(const Example& example, const Vec3d& scale, std::uint64_t seed,
   const std::array<bool, 6> cut = cutSides(example.field);
   for (std::size_t side = 0; side < cut.size(); ++side)
     if (cut[side]) options.sides[side].kind = SideRule::Kind::Free;
-  const Vec3i wanted = scaled(example.field.size(), scale);
+  const Vec3i wanted = scaledSize(example.field.size(), scale, "samples");
   for (int axis = 0; axis < 3; ++axis) {
     const double cells = static_cast<double>(wanted[axis]) / blocks.block[axis];
     options.size[axis] = std::max(1, static_cast<int>(std::lround(cells)));
@@ -95,29 +84,29 @@ const char* engineName(ComparedEngine engine) {
 ComparedResult runEngine(ComparedEngine engine, const Example& example, const Vec3d& scale,
                          std::uint64_t seed, const Progress& progress) {
   ComparedResult result;
-  const Vec3i size = scaled(example.field.size(), scale);
+  const Vec3i size = scaledSize(example.field.size(), scale, "samples");
   requireMemory(kBytesPerSample * static_cast<double>(volume(size)),
                 "a result of " + readableSize(size), "use a lower --resolution or --scale");
   const Stopwatch stopwatch;
-  if (engine == ComparedEngine::Blocks) {
-    BlocksOptions options;
-    options.size = size;
-    options.seed = seed;
-    options.block = example.block;
-    takeGeometry(synthesizeBlocks(example.field, options, progress), result);
-  } else if (engine == ComparedEngine::Optimize) {
-    OptimizeOptions options;
-    options.size = size;
-    options.seed = seed;
-    takeGeometry(synthesizeOptimized(example.field, options, progress), result);
-  } else {
-    try {
+  try {
+    if (engine == ComparedEngine::Blocks) {
+      BlocksOptions options;
+      options.size = size;
+      options.seed = seed;
+      options.block = example.block;
+      takeGeometry(synthesizeBlocks(example.field, options, progress), result);
+    } else if (engine == ComparedEngine::Optimize) {
+      OptimizeOptions options;
+      options.size = size;
+      options.seed = seed;
+      takeGeometry(synthesizeOptimized(example.field, options, progress), result);
+    } else {
       runModel(example, scale, seed, progress, result);
-    } catch (const InputError& error) {
-      // The comparison goes on: that an engine cannot take the example is a finding.
-      result.status = "refused";
-      result.why = error.what();
     }
+  } catch (const InputError& error) {
+    // The comparison goes on: that an engine cannot take the example is a finding.
+    result.status = "refused";
+    result.why = error.what();
   }
   result.seconds = stopwatch.seconds();
   if (result.status != "complete") return result;

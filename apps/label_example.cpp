@@ -155,14 +155,7 @@ void addLabelReadingOptions(CLI::App& command, LabelReading& options) {
                   "how far blocks of one label may differ, voxels")
       ->check(CLI::Range(0.0, 16.0))
       ->capture_default_str();
-  command
-      .add_option("--cell-size", options.pointDistance,
-                  "distance of a height map's points, where the file does not say")
-      ->check(CLI::PositiveNumber);
-  command
-      .add_option("--height-scale", options.heightScale,
-                  "height of one step of a height map's integers")
-      ->check(CLI::PositiveNumber);
+  addHeightMapOptions(command, options.pointDistance, options.heightScale);
   addUpOption(command, options.mesh);
 }
 

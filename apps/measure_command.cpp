@@ -4,7 +4,6 @@
 // exemplar measure: how alike, how new and how seamless a result is.
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -36,17 +35,7 @@ std::optional<Vec3i> resultSize(const Options& options, const Example& example,
     return origins.size();
   }
   if (options.scale.empty()) return std::nullopt;
-  const Vec3d scale = parseTriple(options.scale, "--scale");
-  Vec3i size;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double n = std::round(example.field.size()[axis] * scale[axis]);
-    if (!(n >= 1 && n <= 32767)) {
-      throw InputError("--scale: the result would be " + std::to_string(n) +
-                       " samples long; expected 1 to 32767");
-    }
-    size[axis] = static_cast<int>(n);
-  }
-  return size;
+  return scaledSize(example.field.size(), parseTriple(options.scale, "--scale"), "samples");
 }
 
 /// The result at the example's voxel size, and its triangles where it has any.

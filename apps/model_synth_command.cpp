@@ -49,16 +49,7 @@ Vec3i resultSize(const Options& options, const LabelExample& example) {
   }
   if (!options.size.empty()) return parseCells(options.size, "--size");
   const Vec3d scale = options.scale.empty() ? example.scale : parseTriple(options.scale, "--scale");
-  Vec3i size;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double n = std::round(example.grid.size()[axis] * scale[axis]);
-    if (!(n >= 1 && n <= 32767)) {
-      throw InputError("--scale: the result would be " + std::to_string(n) +
-                       " cells long; expected 1 to 32767");
-    }
-    size[axis] = static_cast<int>(n);
-  }
-  return size;
+  return scaledSize(example.grid.size(), scale, "cells");
 }
 
 /// "KEY=VALUE" in two; throws naming `option` and its form.

@@ -5,7 +5,6 @@
 // mesh with the example's materials.
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <memory>
 
 #include "apps/command.h"
@@ -47,17 +46,9 @@ struct Options {
 
 constexpr const char* kOutputEndings = ".obj .ply .stl .off .glb .vdb .png .pgm .asc";
 
-/// The result's size in samples: the example's, scaled, at least one a side.
+/// The result's size in samples.
 Vec3i resultSize(const Example& example, const Vec3d& scale) {
-  Vec3i size;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double n = std::round(example.field.size()[axis] * scale[axis]);
-    if (!(n >= 1 && n <= 32767)) {
-      throw InputError("--scale: the result would be " + std::to_string(n) +
-                       " samples long; expected 1 to 32767");
-    }
-    size[axis] = static_cast<int>(n);
-  }
+  const Vec3i size = scaledSize(example.field.size(), scale, "samples");
   // The field, its origins, the search and the surface, about, for each sample.
   requireMemory(80.0 * static_cast<double>(volume(size)), "a result of " + readableSize(size),
                 "use a lower --resolution or a smaller --scale");

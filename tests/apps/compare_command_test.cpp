@@ -71,6 +71,18 @@ TEST_F(CompareCommand, TellsWhyAnEngineMadeNothing) {
   EXPECT_THAT(readFile(file("report.html")), HasSubstr(run.at("status").get<std::string>()));
 }
 
+TEST_F(CompareCommand, TakesExamplesTooSmallToMeasure) {
+  const CommandResult outcome = compare("--seeds 1 --engines optimize,blocks --resolution 6");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json runs = read("compare.json").at("runs");
+  ASSERT_EQ(runs[0].at("status"), "complete");
+  // Too few patches for a distribution: null, and the comparison goes on.
+  EXPECT_TRUE(runs[0].at("figures").at("likeness").at("fpd").is_null());
+  // A block of 16 does not fit, which is a finding.
+  EXPECT_EQ(runs[1].at("status"), "refused");
+  EXPECT_THAT(runs[1].at("why").get<std::string>(), HasSubstr("block 16"));
+}
+
 TEST_F(CompareCommand, NeverMakesAFinishedRunAgain) {
   ASSERT_EQ(compare("--seeds 1 --engines blocks").status, 0);
   const auto made = fs::last_write_time(file("blocks-0.glb"));
