@@ -110,26 +110,38 @@ Means secondDifferences(const InVoxels& phi) {
   });
 }
 
-Means seamJumps(const InVoxels& example, const InVoxels& result, const Origins& origins,
+/// The jump at the face between `a` and the sample one `step` on, where the source changes there
+/// and the example says what should follow.
+std::optional<double> jumpAt(const InVoxels& example, const InVoxels& result,
+                             const Origins& origins, int exampleIndex, const Vec3i& a,
+                             const Vec3i& step) {
+  const Vec3i b = a + step;
+  const Origin &oa = origins[a], &ob = origins[b];
+  if (continues(oa, ob, step)) return std::nullopt;
+  const double slope = result(a) - result(b);
+  Mean jump;
+  if (const Vec3i on = oa.cell() + turnedBack(step, oa);
+      oa.example == exampleIndex && example.contains(on))
+    jump.add(std::abs(slope - (example(oa.cell()) - example(on))));
+  if (const Vec3i back = ob.cell() - turnedBack(step, ob);
+      ob.example == exampleIndex && example.contains(back))
+    jump.add(std::abs(slope - (example(back) - example(ob.cell()))));
+  if (jump.count == 0) return std::nullopt;
+  return jump.value();
+}
+
+Means meanJumps(const InVoxels& example, const InVoxels& result, const Origins& origins,
                 int exampleIndex) {
   return sumOverSamples<Means>(result.size(), [&](const Vec3i& a, Means& sum) {
     for (int axis = 0; axis < 3; ++axis) {
-      const Vec3i step = unit(axis), b = a + step;
+      const Vec3i b = a + unit(axis);
       if (!result.contains(b)) continue;
       ++sum.faces;
-      const Origin &oa = origins[a], &ob = origins[b];
-      if (continues(oa, ob, step)) continue;
-      const double slope = result(a) - result(b);
-      Mean jump;
-      if (const Vec3i on = oa.cell() + turnedBack(step, oa);
-          oa.example == exampleIndex && example.contains(on))
-        jump.add(std::abs(slope - (example(oa.cell()) - example(on))));
-      if (const Vec3i back = ob.cell() - turnedBack(step, ob);
-          ob.example == exampleIndex && example.contains(back))
-        jump.add(std::abs(slope - (example(back) - example(ob.cell()))));
-      if (jump.count == 0) continue;
-      sum.all.add(jump.value());
-      if (std::abs(result(a)) < kBand || std::abs(result(b)) < kBand) sum.near.add(jump.value());
+      const std::optional<double> jump =
+          jumpAt(example, result, origins, exampleIndex, a, unit(axis));
+      if (!jump) continue;
+      sum.all.add(*jump);
+      if (std::abs(result(a)) < kBand || std::abs(result(b)) < kBand) sum.near.add(*jump);
     }
   });
 }
@@ -160,7 +172,7 @@ Seams measureSeams(const DistanceField& example, const DistanceField& result,
 
   requireOriginsFit(*origins, example, result, exampleIndex);
   const Means own = secondDifferences(e);
-  const Means jumps = seamJumps(e, r, *origins, exampleIndex);
+  const Means jumps = meanJumps(e, r, *origins, exampleIndex);
   seams.seamShare = jumps.faces == 0
                         ? 0
                         : static_cast<double>(jumps.all.count) / static_cast<double>(jumps.faces);
@@ -169,6 +181,34 @@ Seams measureSeams(const DistanceField& example, const DistanceField& result,
   seams.nearJump = jumps.near.value();
   seams.nearJumpRatio = ratio(jumps.near.value(), own.near.value());
   return seams;
+}
+
+Array3D<float> seamJumps(const DistanceField& example, const DistanceField& result,
+                         const Origins& origins, int exampleIndex) {
+  requireSameVoxels(example, result);
+  requireOriginsFit(origins, example, result, exampleIndex);
+  const double truncation = std::min(truncationVoxels(example), truncationVoxels(result));
+  const InVoxels e(example, truncation), r(result, truncation);
+  Array3D<float> jumps(result.size());
+  const Vec3i n = result.size();
+  parallelFor(0, n.z, kLayers, [&](std::size_t begin, std::size_t end) {
+    for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
+      for (int j = 0; j < n.y; ++j)
+        for (int i = 0; i < n.x; ++i) {
+          const Vec3i a{i, j, k};
+          double most = 0;
+          for (int axis = 0; axis < 3; ++axis) {
+            const Vec3i step = unit(axis);
+            if (r.contains(a + step))
+              most = std::max(most, jumpAt(e, r, origins, exampleIndex, a, step).value_or(0));
+            if (r.contains(a - step))
+              most =
+                  std::max(most, jumpAt(e, r, origins, exampleIndex, a - step, step).value_or(0));
+          }
+          jumps[a] = static_cast<float>(most);
+        }
+  });
+  return jumps;
 }
 
 }  // namespace exemplar

@@ -41,4 +41,10 @@ struct Seams {
 Seams measureSeams(const DistanceField& example, const DistanceField& result,
                    const Origins* origins = nullptr, int exampleIndex = 0);
 
+/// Where seams are and how much they jump, in voxels: for each sample of the result the largest of
+/// the jumps that `Seams::jump` is the mean of, over the sample's own faces; 0 where its source
+/// goes on to all sides. Arguments, errors and cost as there.
+Array3D<float> seamJumps(const DistanceField& example, const DistanceField& result,
+                         const Origins& origins, int exampleIndex = 0);
+
 }  // namespace exemplar

@@ -11,6 +11,8 @@
 // clang-format on
 
 #include <csetjmp>
+#include <cstdlib>
+#include <new>
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -119,6 +121,47 @@ Image8 decodeJpeg(std::string_view bytes, const std::string& name) {
   image.pixels.resize(rowBytes * image.height);
   if (!decode(decoder, image.pixels.data(), rowBytes)) fail();
   return image;
+}
+
+std::string encodeJpeg(const Image8& image, int quality) {
+  const bool gray = image.channels == 1;
+  if (image.width < 1 || image.height < 1 || image.width > JPEG_MAX_DIMENSION ||
+      image.height > JPEG_MAX_DIMENSION || (!gray && image.channels != 3)) {
+    throw InputError("a picture of " + std::to_string(image.width) + " x " +
+                     std::to_string(image.height) + " pixels and " +
+                     std::to_string(image.channels) + " channels cannot be a JPEG");
+  }
+  struct Encoder {
+    jpeg_compress_struct info{};
+    jpeg_error_mgr errors{};
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    ~Encoder() {
+      jpeg_destroy_compress(&info);
+      std::free(bytes);
+    }
+  } encoder;
+  encoder.info.err = jpeg_std_error(&encoder.errors);
+  // What could fail has been looked at above; what is left is a want of memory.
+  encoder.errors.error_exit = [](j_common_ptr) { throw std::bad_alloc(); };
+  jpeg_create_compress(&encoder.info);
+  jpeg_mem_dest(&encoder.info, &encoder.bytes, &encoder.size);
+  encoder.info.image_width = static_cast<JDIMENSION>(image.width);
+  encoder.info.image_height = static_cast<JDIMENSION>(image.height);
+  encoder.info.input_components = image.channels;
+  encoder.info.in_color_space = gray ? JCS_GRAYSCALE : JCS_RGB;
+  jpeg_set_defaults(&encoder.info);
+  jpeg_set_quality(&encoder.info, quality, TRUE);
+  encoder.info.comp_info[0].h_samp_factor = encoder.info.comp_info[0].v_samp_factor = 1;
+  jpeg_start_compress(&encoder.info, TRUE);
+  while (encoder.info.next_scanline < encoder.info.image_height) {
+    // libjpeg only reads the row.
+    auto* row =
+        const_cast<unsigned char*>(image.at(0, static_cast<int>(encoder.info.next_scanline)));
+    jpeg_write_scanlines(&encoder.info, &row, 1);
+  }
+  jpeg_finish_compress(&encoder.info);
+  return {reinterpret_cast<const char*>(encoder.bytes), encoder.size};
 }
 
 }  // namespace exemplar

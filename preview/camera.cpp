@@ -89,6 +89,36 @@ Camera CameraFit::camera(double minimumDepth) const {
   return camera;
 }
 
+Camera pictureCamera(const TriangleMesh& mesh, const RenderOptions& options) {
+  validate(mesh, "picture");
+  CameraFit fit(options);
+  Box3d held;
+  const auto hold = [&](const Vec3d& p) {
+    fit.add(p);
+    held.add(p);
+  };
+  if (options.frame) {
+    const Box3d& b = *options.frame;
+    for (int corner = 0; corner < 8; ++corner)
+      hold({(corner & 1 ? b.max : b.min).x, (corner & 2 ? b.max : b.min).y,
+            (corner & 4 ? b.max : b.min).z});
+  } else {
+    for (const auto& triangle : mesh.triangles)
+      for (const std::uint32_t v : triangle) hold(mesh.positions[v]);
+  }
+  const Vec3d size = held.size();
+  const double reach = std::max({size.x, size.y, size.z}) / 2;
+  return fit.camera(reach > 0 ? 0.05 * reach : 1);
+}
+
+std::optional<std::array<double, 2>> pictureOf(const Camera& camera, const Vec3d& point) {
+  const Vec3d d = point - camera.position;
+  const double depth = dot(d, camera.forward);
+  if (!(depth > 0)) return std::nullopt;
+  return std::array<double, 2>{0.5 + dot(d, camera.right) / (2 * depth * camera.tanX),
+                               0.5 - dot(d, camera.up) / (2 * depth * camera.tanY)};
+}
+
 Box3d frameOfSize(const Box3d& box, const Vec3d& size) {
   const Vec3d center = box.center();
   return {{center.x - size.x / 2, center.y - size.y / 2, box.min.z},

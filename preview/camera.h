@@ -3,7 +3,11 @@
 
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "core/vec.h"
+#include "mesh/triangle_mesh.h"
 #include "preview/render.h"
 
 namespace exemplar {
@@ -34,5 +38,13 @@ class CameraFit {
   double freeX_, freeY_;
   double lowX_, highX_, lowY_, highY_, nearest_;
 };
+
+/// The camera of the picture that `render` takes of `mesh`, in world units: where a point of the
+/// scene is in the picture. Throws `InputError` for a mesh that `validate` refuses.
+Camera pictureCamera(const TriangleMesh& mesh, const RenderOptions& options);
+
+/// Where a picture shows a point: 0..1 from its left and from its top where it is within. Nothing
+/// for a point that is not in front of the camera.
+std::optional<std::array<double, 2>> pictureOf(const Camera& camera, const Vec3d& point);
 
 }  // namespace exemplar

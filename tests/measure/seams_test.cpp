@@ -135,6 +135,22 @@ TEST(SeamJump, FollowsTurns) {
   }
 }
 
+TEST(SeamJumps, AreWhereTheSourceChangesAndNowhereElse) {
+  // The two halves of above: a step of two voxels where they meet, at x = 7 and 8.
+  const DistanceField example = makeField({16, 8, 40}, [](const Vec3d& p) { return p.z - 20; });
+  const Origins origins = makeOrigins({16, 8, 30}, [](const Vec3i& p) {
+    return Origin({p.x, p.y, p.x < 8 ? p.z + 5 : p.z + 3});
+  });
+  const DistanceField result = gathered(example, origins);
+  const Array3D<float> jumps = seamJumps(example, result, origins);
+  ASSERT_EQ(jumps.size(), result.size());
+  for (std::size_t n = 0; n < jumps.count(); ++n) {
+    const Vec3i p = jumps.ijk(n);
+    ASSERT_EQ(jumps.values()[n], p.x == 7 || p.x == 8 ? 2.0f : 0.0f) << p.x << " " << p.y;
+  }
+  EXPECT_THROW(seamJumps(example, example, origins), InputError);
+}
+
 TEST(Seams, RefuseOriginsThatDoNotFit) {
   const DistanceField example = ball({16, 16, 16}, {8, 8, 8}, 5);
   Origins origins(Vec3i{16, 16, 15});

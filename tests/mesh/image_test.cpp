@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
 #include "mesh/image.h"
+#include "mesh/jpeg.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -128,6 +129,28 @@ TEST(DecodeImage, UndoesInterlacing) {
       EXPECT_EQ(image.at(x, y)[1], 100 * y);
     }
   }
+}
+
+TEST(EncodeJpeg, IsReadAgainAsTheSamePicture) {
+  Image8 image{40, 30, 3, {}};
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x)
+      for (const int value : {6 * x, 8 * y, 128})
+        image.pixels.push_back(static_cast<std::uint8_t>(value));
+  const std::string bytes = encodeJpeg(image, 95);
+  EXPECT_EQ(bytes, encodeJpeg(image, 95));
+  const Image8 again = decodeImage(bytes, "it");
+  ASSERT_EQ(again.width, 40);
+  ASSERT_EQ(again.height, 30);
+  ASSERT_EQ(again.channels, 3);
+  // A smooth picture at quality 95: steps of quantisation are a few greys.
+  for (std::size_t n = 0; n < image.pixels.size(); ++n)
+    ASSERT_NEAR(image.pixels[n], again.pixels[n], 8) << n;
+  EXPECT_LT(encodeJpeg(image, 30).size(), bytes.size());
+
+  EXPECT_EQ(decodeImage(encodeJpeg({2, 1, 1, {10, 200}}), "it").channels, 1);
+  EXPECT_THROW(encodeJpeg({0, 1, 3, {}}), InputError);
+  EXPECT_THROW(encodeJpeg({1, 1, 4, {1, 2, 3, 4}}), InputError);
 }
 
 TEST(DecodeImage, ReadsJpegs) {
