@@ -3,16 +3,11 @@
 
 #include "preview/render.h"
 
-#include <embree3/rtcore.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <mutex>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 #include "core/error.h"
@@ -22,17 +17,16 @@
 #include "preview/camera.h"
 #include "preview/film.h"
 #include "preview/normals.h"
+#include "preview/paints.h"
 #include "preview/sampling.h"
 #include "preview/shading.h"
-#include "preview/texture.h"
+#include "preview/tracer.h"
 
 namespace exemplar {
 namespace {
 
-constexpr int kLanes = 8;             // paths traced together
 constexpr int kRaysOfPath = 4;        // camera, key, sky, key seen from there
 constexpr int kTile = 32;             // pixels
-constexpr float kFar = 1e6f;          // scene units, see `Scale`
 constexpr float kLift = 2e-5f;        // start of rays above their surface, scene units
 constexpr float kDeepAmbient = 0.4f;  // share of open light after the bounces that are traced
 constexpr float kBrightest = 12;      // cap on the light that one path brings
@@ -61,227 +55,6 @@ void validate(const RenderOptions& o) {
   check(within(o.keyRadius, 0.001, 0.5), "keyRadius must be 0.001..0.5 radians");
   check(within(o.creaseAngle, 0, kRight), "creaseAngle must be 0..pi/2");
 }
-
-// From the world to the scene that is traced: the mesh's box about the origin, its longest side
-// two units, so that single precision serves whatever the coordinates. Views from below are traced
-// turned over, with light from "above".
-struct Scale {
-  Vec3d center;
-  double factor = 1;
-  bool turnedOver = false;
-
-  Vec3d operator()(const Vec3d& p) const {
-    const Vec3d q = (p - center) * factor;
-    return turnedOver ? turn(q) : q;
-  }
-  template <class T>
-  static Vec3<T> turn(const Vec3<T>& v) {
-    return {v.x, v.y, -v.z};
-  }
-};
-
-Scale scaleOf(const Box3d& box, bool turnedOver) {
-  const Vec3d size = box.size();
-  const double side = std::max({size.x, size.y, size.z});
-  return {box.min + size * 0.5, side > 1e-300 ? 2 / side : 1, turnedOver};
-}
-
-// What a ray meets.
-struct Hit {
-  bool mesh = false;
-  float distance = kFar, u = 0, v = 0;
-  std::uint32_t triangle = 0;
-};
-
-struct Ray {
-  Vec3f origin, direction;
-};
-
-using Lanes = std::array<bool, kLanes>;
-using Rays = std::array<Ray, kLanes>;
-using Hits = std::array<Hit, kLanes>;
-
-// The mesh in Embree.
-class Tracer {
- public:
-  Tracer(const TriangleMesh& mesh, const Scale& scale);
-
-  // Nearest hits of the rays in `live` lanes. `coherent`: the rays run much alike (a hint).
-  Hits nearest(const Rays& rays, const Lanes& live, bool coherent) const;
-  // Which of the rays in `live` lanes meet nothing.
-  Lanes open(const Rays& rays, const Lanes& live, bool coherent) const;
-
-  std::array<Vec3f, 3> corners(std::uint32_t triangle) const {
-    const auto& t = triangles_[triangle];
-    return {vertex(t[0]), vertex(t[1]), vertex(t[2])};
-  }
-
- private:
-  struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  };
-  struct ReleaseScene {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  };
-
-  Vec3f vertex(std::uint32_t v) const {
-    const float* p = vertices_ + 3 * static_cast<std::size_t>(v);
-    return {p[0], p[1], p[2]};
-  }
-  void checkErrors() const {
-    if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
-      throw std::runtime_error("Embree: error " + std::to_string(error));
-  }
-
-  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
-  std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
-  const float* vertices_ = nullptr;
-  const std::array<std::uint32_t, 3>* triangles_ = nullptr;
-};
-
-Tracer::Tracer(const TriangleMesh& mesh, const Scale& scale) : device_(rtcNewDevice(nullptr)) {
-  if (!device_) throw std::runtime_error("Embree: no device");
-  scene_.reset(rtcNewScene(device_.get()));
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  const std::size_t n = mesh.positions.size(), m = mesh.triangles.size();
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), n));
-  auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), m));
-  if (!vertices || !triangles) {
-    rtcReleaseGeometry(geometry);
-    throw std::bad_alloc();
-  }
-  for (std::size_t v = 0; v < n; ++v) {
-    const Vec3f p = cast<float>(scale(mesh.positions[v]));
-    vertices[3 * v] = p.x, vertices[3 * v + 1] = p.y, vertices[3 * v + 2] = p.z;
-  }
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
-  vertices_ = vertices;
-  triangles_ = triangles;
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_.get(), geometry);
-  rtcReleaseGeometry(geometry);  // the scene holds it
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  // Built by one thread: with more, the order of triangles within the tree's leaves would depend on
-  // their number, and with it which of two coinciding triangles a ray reports.
-  tbb::task_arena alone(1);
-  alone.execute([&] { rtcJoinCommitScene(scene_.get()); });
-  checkErrors();
-}
-
-template <class Packet>
-void fill(Packet& packet, int* valid, const Rays& rays, const Lanes& live) {
-  for (int k = 0; k < kLanes; ++k) {
-    valid[k] = live[k] ? -1 : 0;
-    packet.org_x[k] = rays[k].origin.x;
-    packet.org_y[k] = rays[k].origin.y;
-    packet.org_z[k] = rays[k].origin.z;
-    packet.dir_x[k] = rays[k].direction.x;
-    packet.dir_y[k] = rays[k].direction.y;
-    packet.dir_z[k] = rays[k].direction.z;
-    packet.tnear[k] = 0;
-    packet.tfar[k] = live[k] ? kFar : -1;
-    packet.time[k] = 0;
-    packet.mask[k] = ~0u;
-    packet.id[k] = 0;
-    packet.flags[k] = 0;
-  }
-}
-
-RTCIntersectContext contextFor(bool coherent) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags =
-      coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  return context;
-}
-
-bool any(const Lanes& lanes) {
-  return std::any_of(lanes.begin(), lanes.end(), [](bool lane) { return lane; });
-}
-
-Hits Tracer::nearest(const Rays& rays, const Lanes& live, bool coherent) const {
-  Hits hits{};
-  if (!any(live)) return hits;
-  RTCIntersectContext context = contextFor(coherent);
-  RTCRayHit8 packet;
-  alignas(32) int valid[kLanes];
-  fill(packet.ray, valid, rays, live);
-  for (int k = 0; k < kLanes; ++k)
-    packet.hit.geomID[k] = packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect8(valid, scene_.get(), &context, &packet);
-  for (int k = 0; k < kLanes; ++k)
-    if (live[k] && packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
-      hits[k] = {true, packet.ray.tfar[k], packet.hit.u[k], packet.hit.v[k], packet.hit.primID[k]};
-  return hits;
-}
-
-Lanes Tracer::open(const Rays& rays, const Lanes& live, bool coherent) const {
-  Lanes open{};
-  if (!any(live)) return open;
-  RTCIntersectContext context = contextFor(coherent);
-  RTCRay8 packet;
-  alignas(32) int valid[kLanes];
-  fill(packet, valid, rays, live);
-  rtcOccluded8(valid, scene_.get(), &context, &packet);
-  for (int k = 0; k < kLanes; ++k) open[k] = live[k] && packet.tfar[k] >= 0;
-  return open;
-}
-
-struct Paint {
-  Vec3f color;  // linear
-  float metallic = 0, roughness = 0;
-  Vec3f emission{};
-};
-
-// What the mesh is made of.
-class Paints {
- public:
-  explicit Paints(const TriangleMesh& mesh) : mesh_(mesh) {
-    textures_.resize(mesh.textures.size());
-    for (const std::uint32_t m : mesh.triangleMaterials)
-      if (const auto& t = mesh.materials[m].baseColorTexture; t && !textures_[*t])
-        textures_[*t] = std::make_unique<ColorTexture>(mesh.textures[*t]);
-  }
-
-  Paint at(std::uint32_t triangle, float u, float v) const {
-    const std::array<float, 3> share{1 - u - v, u, v};
-    Paint paint = kClay;
-    if (mesh_.hasMaterials()) {
-      const Material& m = mesh_.materials[mesh_.triangleMaterials[triangle]];
-      paint = {
-          {m.baseColor[0], m.baseColor[1], m.baseColor[2]}, m.metallic, m.roughness, m.emission};
-      if (m.baseColorTexture && mesh_.hasUvs()) {
-        Vec2f at{};
-        for (int c = 0; c < 3; ++c) {
-          at.x += mesh_.uvs[triangle][c].x * share[c];
-          at.y += mesh_.uvs[triangle][c].y * share[c];
-        }
-        paint.color = scaled(paint.color, textures_[*m.baseColorTexture]->at(at));
-      }
-    } else if (mesh_.hasColors()) {
-      paint.color = {1, 1, 1};
-    }
-    if (mesh_.hasColors()) {
-      Vec3f color{};
-      for (int c = 0; c < 3; ++c) {
-        const auto& rgba = mesh_.colors[mesh_.triangles[triangle][c]];
-        color += Vec3f{rgba[0], rgba[1], rgba[2]} * share[c];
-      }
-      paint.color = scaled(paint.color, color);
-    }
-    return paint;
-  }
-
- private:
-  static constexpr Paint kClay{{0.50f, 0.455f, 0.405f}, 0, 0.65f, {}};
-
-  const TriangleMesh& mesh_;
-  std::vector<std::unique_ptr<ColorTexture>> textures_;
-};
-
-constexpr Paint Paints::kClay;
 
 // A point on the mesh or the floor that light is gathered for.
 struct Place {
@@ -322,7 +95,7 @@ class Photographer {
                                      const PixelSampler& sampler, int firstPath) const;
 
   RenderOptions options_;
-  Scale scale_;
+  SceneScale scale_;
   Tracer tracer_;
   std::vector<std::array<Vec3f, 3>> normals_;
   Paints paints_;
@@ -354,14 +127,14 @@ Vec3f backgroundLight() {
 
 Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& options)
     : options_(options),
-      scale_(scaleOf(boundingBox(mesh), options.view.elevation < 0)),
+      scale_(sceneScale(boundingBox(mesh), options.view.elevation < 0)),
       tracer_(mesh, scale_),
       normals_(cornerNormals(mesh, options.creaseAngle)),
       paints_(mesh),
       studio_(keyDirection(options), static_cast<float>(options.keyRadius)),
       paths_(std::max(1, options.samples / kRaysOfPath)) {
   // The camera is fitted before the scene is turned over, and turned with it: what it shows stays.
-  Scale upright = scale_;
+  SceneScale upright = scale_;
   upright.turnedOver = false;
   CameraFit fit(options);
   double reach = 0;
@@ -381,12 +154,12 @@ Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& option
   }
   camera_ = fit.camera(reach > 0 ? 0.05 * reach : 1);
   if (scale_.turnedOver) {
-    camera_.position = Scale::turn(camera_.position);
-    camera_.right = Scale::turn(camera_.right);
-    camera_.up = Scale::turn(camera_.up);
-    camera_.forward = Scale::turn(camera_.forward);
+    camera_.position = SceneScale::turn(camera_.position);
+    camera_.right = SceneScale::turn(camera_.right);
+    camera_.up = SceneScale::turn(camera_.up);
+    camera_.forward = SceneScale::turn(camera_.forward);
     for (auto& normals : normals_)
-      for (Vec3f& normal : normals) normal = Scale::turn(normal);
+      for (Vec3f& normal : normals) normal = SceneScale::turn(normal);
   }
 
   const Box3d box = boundingBox(mesh);
