@@ -35,7 +35,6 @@ struct Options {
   std::vector<std::string> mirroredX, mirroredY, turned;
   int turns = 1;
   std::optional<int> frames;
-  std::optional<LabelChoice> choice;
   bool instances = false;
   ModelOptions model;
   LabelReading reading;
@@ -49,7 +48,7 @@ Vec3i resultSize(const Options& options, const LabelExample& example) {
   }
   if (!options.size.empty()) return parseCells(options.size, "--size");
   const Vec3d scale = options.scale.empty() ? example.scale : parseTriple(options.scale, "--scale");
-  return scaledSize(example.grid.size(), scale, "cells");
+  return scaledSize(cellsOfSize(example), scale, "cells");
 }
 
 /// "KEY=VALUE" in two; throws naming `option` and its form.
@@ -202,9 +201,6 @@ ModelOptions modelOptions(const Options& options, const LabelExample& example) {
   ModelOptions model = options.model;
   const LabelGrid& grid = example.grid;
   model.size = resultSize(options, example);
-  // Most of a solid scene is air: as frequent as there, it would leave little else.
-  model.choice =
-      options.choice.value_or(grid.size().z == 1 ? LabelChoice::Frequency : LabelChoice::Uniform);
   if (!options.block.empty()) model.block = parseCells(options.block, "--block");
   // A picture is a window into something larger: it ends anywhere.
   if (example.image) model.sides.fill(SideRule{SideRule::Kind::Free, {}});
@@ -366,7 +362,7 @@ void synth(const Options& options) {
   }
   AdjacencyOptions pairs = adjacencyOptions(options);
   pairs.frames = moves;
-  const Adjacency adjacency = findAdjacency(grids, pairs);
+  const Adjacency adjacency = findAdjacency(example, grids, pairs);
   const double readSeconds = total.seconds();
 
   const Stopwatch synthesis;
@@ -525,15 +521,16 @@ CommandRun addModelSynthCommand(CLI::App& app) {
                                              {"blocks", ModelMethod::Blocks}}))
       ->option_text("auto|whole|blocks");
   command
-      ->add_option("--choice", options->choice,
-                   "how probable labels are: all alike (uniform; the default but for flat "
-                   "examples), as frequent as in the example (frequency; their default), or as in "
-                   "like surroundings (resemblance)")
+      ->add_option("--choice", options->model.choice,
+                   "how probable labels are: as frequent as in the example beside what stands "
+                   "around (neighbors, the default), in like surroundings of 3 x 3 x 3 cells "
+                   "(resemblance), or all over (frequency); or all alike (uniform)")
       ->transform(CLI::CheckedTransformer(
-          std::map<std::string, LabelChoice>{{"frequency", LabelChoice::Frequency},
+          std::map<std::string, LabelChoice>{{"neighbors", LabelChoice::Neighbors},
+                                             {"frequency", LabelChoice::Frequency},
                                              {"uniform", LabelChoice::Uniform},
                                              {"resemblance", LabelChoice::Resemblance}}))
-      ->option_text("frequency|uniform|resemblance");
+      ->option_text("neighbors|resemblance|frequency|uniform");
   command->add_option("--block", options->block, "blocks: their size in cells, X,Y,Z (10)");
   command->add_option("--rounds", options->model.rounds, "blocks: rounds over all of them")
       ->check(CLI::Range(1, 100))

@@ -3,10 +3,16 @@
 
 #include "synth/model/choose.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace exemplar {
 namespace {
 
 constexpr std::uint32_t kLabelStream = 0x4C424C31;  // the choice of labels
+/// How much a place counts that the examples show with one of the three neighbors another.
+constexpr double kLess = 0.01;
+constexpr std::uint64_t kAnyLabel = 0xFFFF;
 
 /// One of `labels` with chances in proportion to `weight(label)`, for `uniform` in [0, 1).
 template <class Weight>
@@ -30,17 +36,132 @@ int pick(std::span<const LabelWord> labels, double uniform, const Weight& weight
 LabelChooser::LabelChooser(const ModelProblem& problem, std::span<const LabelGrid> examples)
     : problem_(&problem),
       random_(problem.options().seed, kLabelStream),
-      varies_(problem.weightVaries() && !problem.options().metropolis) {
+      varies_(problem.weightVaries() && !problem.options().metropolis),
+      neighbors_(problem.options().choice == LabelChoice::Neighbors) {
   const ModelOptions& o = problem.options();
   for (int b = 0; b < problem.network().labels; ++b) {
-    frequencies_.push_back(o.choice == LabelChoice::Frequency
-                               ? static_cast<double>(problem.adjacency().frequency[b])
-                               : 1.0);
-    weights_.push_back(frequencies_[b] * (o.weights.empty() || o.metropolis ? 1.0 : o.weights[b]));
+    const bool frequent = o.choice == LabelChoice::Frequency || neighbors_;
+    frequencies_.push_back(frequent ? static_cast<double>(problem.adjacency().frequency[b]) : 1.0);
+    own_.push_back(o.weights.empty() || o.metropolis ? 1.0 : o.weights[b]);
+    weights_.push_back(frequencies_[b] * own_[b]);
+  }
+  if (neighbors_) {
+    countShares();
+    countPlaces(examples);
   }
   if (o.choice == LabelChoice::Resemblance) {
     resemblance_ = std::make_unique<Resemblance>(problem, examples);
   }
+}
+
+void LabelChooser::countShares() {
+  const int labels = problem_->network().labels;
+  for (const PairRule& rule : problem_->adjacency().rules) {
+    for (const bool against : {false, true}) {
+      std::vector<double> all(labels, 0);  // neighbors that a label has in this direction
+      std::vector<std::int64_t> begin(static_cast<std::size_t>(labels) + 1, 0);
+      for (const LabelPair& p : rule.pairs) {
+        all[against ? p.second : p.first] += static_cast<double>(p.count);
+        ++begin[(against ? p.first : p.second) + 1];
+      }
+      for (int b = 0; b < labels; ++b) begin[b + 1] += begin[b];
+      std::vector<Share> shares(rule.pairs.size());
+      std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
+      for (const LabelPair& p : rule.pairs) {
+        const Label label = against ? p.second : p.first, beside = against ? p.first : p.second;
+        shares[next[beside]++] = {label,
+                                  static_cast<float>(static_cast<double>(p.count) / all[label])};
+      }
+      shareBegin_.push_back(std::move(begin));
+      shares_.push_back(std::move(shares));
+    }
+  }
+}
+
+void LabelChooser::countPlaces(std::span<const LabelGrid> examples) {
+  for (int which = 0; which < 8; ++which) {
+    if (std::popcount(static_cast<unsigned>(which)) < 2) continue;  // shares tell of single ones
+    std::vector<std::uint64_t> found;
+    for (const LabelGrid& e : examples) {
+      for (std::size_t i = 0; i < e.cells.count(); ++i) {
+        const Vec3i p = e.cells.ijk(i);
+        std::uint64_t labels = e.cells.data()[i];
+        bool inside = true;
+        for (int axis = 0; axis < 3; ++axis) {
+          Vec3i q = p;
+          --q[axis];
+          const bool counts = which >> axis & 1;
+          inside = inside && (!counts || q[axis] >= 0);
+          labels |= (counts && inside ? e.cells[q] : kAnyLabel) << (16 * (axis + 1));
+        }
+        if (inside) found.push_back(labels);
+      }
+    }
+    std::sort(found.begin(), found.end());
+    for (std::size_t i = 0; i < found.size();) {
+      std::size_t end = i;
+      while (end < found.size() && found[end] == found[i]) ++end;
+      places_[which].push_back({found[i], static_cast<double>(end - i)});
+      i = end;
+    }
+  }
+}
+
+/// Multiplies the weight of each label by how often it stands where its neighbors at -x, -y and -z
+/// are those in place; where the examples do not show that, where two of the three are; where they
+/// do not show that either, by frequency and each neighbor by itself. Neighbors on the other sides,
+/// further away, and in other frames always count by themselves.
+void LabelChooser::weighByNeighbors(int cell, std::span<const LabelWord> labels,
+                                    const Placed& placed, std::vector<double>& weights) const {
+  const LabelNetwork& network = problem_->network();
+  const auto near = network.neighbors(cell);
+  std::array<std::uint64_t, 3> before{kAnyLabel, kAnyLabel, kAnyLabel};
+  int known = 0;
+  // By themselves: directions that only a symmetry adds have no counts.
+  std::vector<double> single(weights.size(), 1.0);
+  forEachLabel(labels,
+               [&](int b) { single[b] = static_cast<double>(problem_->adjacency().frequency[b]); });
+  const auto multiply = [&](std::size_t slot, int beside, std::vector<double>& by) {
+    const auto& begin = shareBegin_[slot];
+    for (std::int64_t i = begin[beside]; i < begin[beside + 1]; ++i) {
+      const Share& share = shares_[slot][i];
+      if (containsLabel(labels, share.label)) by[share.label] *= share.share;
+    }
+  };
+  for (std::size_t s = 0; s < shares_.size(); ++s) {
+    if (near[s] == network.cells || near[s] == cell) continue;
+    const int beside = placed(near[s]);
+    if (beside < 0) continue;
+    if (s < 6 && s % 2 == 1) {
+      before[s / 2] = static_cast<std::uint64_t>(beside);
+      known |= 1 << (s / 2);
+      multiply(s, beside, single);
+    } else {
+      multiply(s, beside, weights);
+    }
+  }
+  if (std::popcount(static_cast<unsigned>(known)) < 2) {
+    forEachLabel(labels, [&](int b) { weights[b] *= single[b]; });
+    return;
+  }
+  forEachLabel(labels, [&](int b) { single[b] *= kLess * kLess; });
+  for (int which = 0; which < 8; ++which) {
+    if ((which & ~known) != 0 || places_[which].empty()) continue;
+    std::uint64_t labelsBefore = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      labelsBefore |= (which >> axis & 1 ? before[axis] : kAnyLabel) << (16 * (axis + 1));
+    }
+    const double factor = which == known ? 1 : kLess;
+    auto place = std::lower_bound(places_[which].begin(), places_[which].end(), labelsBefore,
+                                  [](const Place& p, std::uint64_t key) { return p.labels < key; });
+    for (;
+         place != places_[which].end() && (place->labels & ~std::uint64_t{0xFFFF}) == labelsBefore;
+         ++place) {
+      const int b = static_cast<int>(place->labels & 0xFFFF);
+      if (containsLabel(labels, b)) single[b] += factor * place->count;
+    }
+  }
+  forEachLabel(labels, [&](int b) { weights[b] *= single[b]; });
 }
 
 int LabelChooser::choose(int cell, std::span<const LabelWord> labels, std::uint32_t draw) const {
@@ -51,6 +172,13 @@ int LabelChooser::choose(int cell, std::span<const LabelWord> labels, std::uint3
 
 int LabelChooser::choose(int cell, std::span<const LabelWord> labels, std::uint32_t draw,
                          const Placed& placed) const {
+  if (neighbors_) {
+    std::vector<double> likely(weights_.size());
+    forEachLabel(labels, [&](int b) { likely[b] = varies_ ? problem_->weight(cell, b) : own_[b]; });
+    weighByNeighbors(cell, labels, placed, likely);
+    const double uniform = random_.uniform(static_cast<std::uint64_t>(cell), draw);
+    return pick(labels, uniform, [&](int b) { return likely[b]; });
+  }
   if (!resemblance_) return choose(cell, labels, draw);
   const std::vector<double> likeness = resemblance_->likeness(cell, labels, placed);
   const double uniform = random_.uniform(static_cast<std::uint64_t>(cell), draw);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -14,27 +15,48 @@
 
 namespace exemplar {
 
-/// Picks labels at random with the weights that a request gives them: frequency in the example (or
-/// one for all), times the user's weights and maps (thesis, section 3.5.3).
+/// Picks labels at random with the weights that a request gives them: frequency in the example
+/// (beside the labels in place, all over, or where the surroundings are alike; or one for all),
+/// times the user's weights and maps (thesis, section 3.5.3).
 class LabelChooser {
  public:
   LabelChooser(const ModelProblem& problem, std::span<const LabelGrid> examples);
 
   /// One of `labels` (at least one) for a cell of the problem's network. Each (cell, draw) is a
-  /// choice of its own.
+  /// choice of its own. What stands around the cell does not count.
   int choose(int cell, std::span<const LabelWord> labels, std::uint32_t draw) const;
 
   /// The label in place at a cell of the network, or -1.
   using Placed = std::function<int(int cell)>;
-  /// The same, weighted by resemblance where the request asks for it.
+  /// The same, weighted by what stands around the cell where the request asks for it.
   int choose(int cell, std::span<const LabelWord> labels, std::uint32_t draw,
              const Placed& placed) const;
 
  private:
+  /// How often a label has the neighbor in question, of all the times that it has one there.
+  struct Share {
+    std::int32_t label;
+    float share;
+  };
+  /// A label with its neighbors at -x, -y and -z, those that count, and how often the examples show
+  /// that: labels of 16 bits, the neighbors' first.
+  struct Place {
+    std::uint64_t labels;
+    double count;
+  };
+
+  void countShares();
+  void countPlaces(std::span<const LabelGrid> examples);
+  void weighByNeighbors(int cell, std::span<const LabelWord> labels, const Placed& placed,
+                        std::vector<double>& weights) const;
+
   const ModelProblem* problem_;
   Random random_;
-  std::vector<double> weights_, frequencies_;
-  bool varies_;
+  std::vector<double> own_, frequencies_, weights_;  // the user's; theirs times frequencies
+  bool varies_, neighbors_;
+  std::vector<std::vector<std::int64_t>> shareBegin_;  // of each slot: of each neighbor's label
+  std::vector<std::vector<Share>> shares_;
+  std::array<std::vector<Place>, 8> places_;  // by which of the three neighbors count, as bits
   std::unique_ptr<Resemblance> resemblance_;
 };
 

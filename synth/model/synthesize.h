@@ -36,7 +36,8 @@ enum class ModelMethod {
 
 /// How probable each of a cell's possible labels is, before the user's own weights.
 enum class LabelChoice {
-  Frequency,    ///< as frequent as in the example
+  Neighbors,    ///< as frequent as in the example beside the labels that stand around the cell
+  Frequency,    ///< as frequent as in the example, whatever stands around
   Uniform,      ///< all alike, as published
   Resemblance,  ///< as frequent as where the example's surroundings look the same (Merrell 2007,
                 ///< equations 2-6)
@@ -80,7 +81,7 @@ struct ModelOptions {
   int frames = 1;       ///< of the result, >= 1; more than one only with an example of frames
   std::uint64_t seed = 0;
   ModelMethod method = ModelMethod::Auto;
-  LabelChoice choice = LabelChoice::Frequency;
+  LabelChoice choice = LabelChoice::Neighbors;
 
   Vec3i block{10, 10, 10};  ///< cells; each component >= 2; blocks overlap by half
   int rounds = 1;           ///< over all blocks, 1..100

@@ -172,11 +172,16 @@ ModelStatus WholePass::repairWithin(int cell, int reach) {
   }
 
   std::vector<Label> labels(count, 0);
+  const LabelChooser::Placed placed = [&](int far) {
+    const int c = part_->local(far);
+    if (c >= 0) return local.decided(c) ? local.firstLabel(c) : -1;
+    return catalog_.decided(far) ? catalog_.firstLabel(far) : -1;
+  };
   for (int attempt = 0; attempt < 2; ++attempt) {
     draws_ += 64;
     const std::uint32_t first = draws_;
     const auto choose = [&](int c, std::span<const LabelWord> set, int draw) {
-      return chooser_.choose(region_[c], set, first + static_cast<std::uint32_t>(draw));
+      return chooser_.choose(region_[c], set, first + static_cast<std::uint32_t>(draw), placed);
     };
     if (attempt > 0) {
       for (int c = 0; c < count; ++c) local.setDomain(c, domains[c]);
