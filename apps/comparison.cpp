@@ -45,7 +45,8 @@ void runModel(const Example& example, const Vec3d& scale, std::uint64_t seed,
     const double cells = static_cast<double>(wanted[axis]) / blocks.block[axis];
     options.size[axis] = std::max(1, static_cast<int>(std::lround(cells)));
   }
-  const ModelResult made = synthesizeModel(blocks.grid, options, progress);
+  const ModelResult made =
+      synthesizeModel(std::span(&blocks.grid, 1), blocks.adjacency, options, progress);
   switch (made.status) {
     case ModelStatus::Cancelled:
       return;

@@ -82,7 +82,7 @@ Json labelInfo(const Options& options, Terminal& terminal) {
       loadLabelExample(options.example, options.reading, terminal.progress());
   terminal.stopIfInterrupted();
   const LabelGrid& grid = example.grid;
-  const Adjacency adjacency = findAdjacency(grid);
+  const Adjacency adjacency = findAdjacency(example, {grid});
   terminal.say("example", options.example + ": " + example.description);
 
   const auto cells = static_cast<double>(grid.cells.count());

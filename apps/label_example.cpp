@@ -86,7 +86,9 @@ void fromField(LabelExample& example, const LabelReading& options, const Progres
   const Vec3i& side = field.blocks.block;
   example.description =
       "blocks of " + std::to_string(side.x) + " x " + std::to_string(side.y) + " x " +
-      std::to_string(side.z) + " samples of a " + field.example.description + ", " +
+      std::to_string(side.z) + " samples" +
+      (blocks.overlap > 0 ? " that overlap by " + std::to_string(blocks.overlap) : "") + " of a " +
+      field.example.description + ", " +
       std::to_string(std::lround(100 * field.blocks.repetition)) + " % of them repeated";
 }
 
@@ -154,6 +156,12 @@ void addLabelReadingOptions(CLI::App& command, LabelReading& options) {
       .add_option("--field-tolerance", options.blocks.tolerance,
                   "how far blocks of one label may differ, voxels")
       ->check(CLI::Range(0.0, 16.0))
+      ->capture_default_str();
+  command
+      .add_option("--field-overlap", options.blocks.overlap,
+                  "samples that neighboring blocks of a field share; those may stand side by side "
+                  "that agree in them (0: blocks tile, and stand as in the example)")
+      ->check(CLI::Range(0, 63))
       ->capture_default_str();
   addHeightMapOptions(command, options.pointDistance, options.heightScale);
   addUpOption(command, options.mesh);
@@ -236,6 +244,28 @@ LabelExample loadLabelFrames(const std::vector<std::string>& paths, const LabelR
 bool isLabelExample(const std::filesystem::path& path) {
   if (isLabelFile(path)) return true;
   return lowerExtension(path) == ".toml" && isPieceScene(path);
+}
+
+Adjacency findAdjacency(const LabelExample& example, const std::vector<LabelGrid>& grids,
+                        const AdjacencyOptions& options) {
+  if (!example.field || example.field->blocks.stride == example.field->blocks.block)
+    return findAdjacency(grids, options);
+  const std::array<bool, 3>& p = options.periodic;
+  if (!options.offsets.empty() || options.frames || p[0] || p[1] || p[2]) {
+    throw InputError(
+        "--field-overlap: what stands beside what is told by the samples blocks share; leave out "
+        "options about the example's pairs, or the overlap");
+  }
+  return example.field->blocks.adjacency;
+}
+
+Vec3i cellsOfSize(const LabelExample& example) {
+  Vec3i cells = example.grid.size();
+  if (!example.field) return cells;
+  const FieldBlocks& blocks = example.field->blocks;
+  for (int axis = 0; axis < 3; ++axis)
+    cells[axis] = (cells[axis] - 1) * blocks.step[axis] / blocks.stride[axis] + 1;
+  return cells;
 }
 
 TriangleMesh labelsToMesh(const LabelGrid& grid, const LabelExample& example) {

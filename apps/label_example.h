@@ -11,6 +11,7 @@
 #include "apps/example.h"
 #include "core/progress.h"
 #include "mesh/triangle_mesh.h"
+#include "voxelize/adjacency.h"
 #include "voxelize/field_blocks.h"
 #include "voxelize/label_grid.h"
 #include "voxelize/label_image.h"
@@ -69,6 +70,15 @@ LabelExample loadLabelExample(const std::filesystem::path& path, const LabelRead
 /// pictures. `grids` receives the frames; the result describes the first and knows every label.
 LabelExample loadLabelFrames(const std::vector<std::string>& paths, const LabelReading& options,
                              std::vector<LabelGrid>& grids, const Progress& progress);
+
+/// What stands beside what in an example whose grids these are: as counted in them, or, where
+/// blocks of a field overlap, as they agree. Throws `InputError` for options that do not go
+/// together with the latter.
+Adjacency findAdjacency(const LabelExample& example, const std::vector<LabelGrid>& grids,
+                        const AdjacencyOptions& options = {});
+
+/// Cells of a result that is as large as the example: the example's own, but where blocks overlap.
+Vec3i cellsOfSize(const LabelExample& example);
 
 /// Whether a path's ending is one of labels alone (.txt .vox), or of a scene made of model pieces.
 bool isLabelExample(const std::filesystem::path& path);

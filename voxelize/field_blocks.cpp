@@ -12,16 +12,20 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "voxelize/overlap.h"
 
 namespace exemplar {
 
 namespace {
 
 constexpr int kUsualBlock = 8;
-constexpr int kSmallestSplit = 28;  // axes shorter than this are one block
-constexpr int kMostLabels = 1 << 16;
-constexpr double kRepeats = 0.6;    // of the surface, for a step to count as a period
-constexpr double kAsGoodAs = 0.97;  // of the best step's share: a shorter one is preferred
+constexpr int kSmallestSplit = 28;    // axes shorter than this are one block
+constexpr int kMostBlocks = 1 << 16;  // labels
+constexpr int kMostOverlapping = 1 << 14;
+constexpr int kGoodOverlapping = 1 << 12;  // with more, fewer places are taken
+constexpr std::size_t kJudged = 64;        // blocks by which a phase of a result is judged
+constexpr double kRepeats = 0.6;           // of the surface, for a step to count as a period
+constexpr double kAsGoodAs = 0.97;         // of the best step's share: a shorter one is preferred
 
 void check(const FieldBlocksOptions& options) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -35,11 +39,14 @@ void check(const FieldBlocksOptions& options) {
     throw InputError("a tolerance of blocks must be at least 0 voxels");
   if (!(options.truncation > 0))
     throw InputError("blocks must be compared within more than 0 voxels");
+  if (options.overlap < 0 || options.overlap > 63)
+    throw InputError("an overlap of " + std::to_string(options.overlap) +
+                     " samples is out of range; 0 to 63 is right");
 }
 
 // The first sample of a cell's block, from that of the first cell.
-Vec3i corner(const Vec3i& cell, const Vec3i& block) {
-  return {cell.x * block.x, cell.y * block.y, cell.z * block.z};
+Vec3i corner(const Vec3i& cell, const Vec3i& step) {
+  return {cell.x * step.x, cell.y * step.y, cell.z * step.z};
 }
 
 // The field in voxels, clamped.
@@ -67,7 +74,32 @@ double sameAfter(const Array3D<float>& values, const Vec3i& step, double toleran
   return near == 0 ? 0 : static_cast<double>(same) / static_cast<double>(near);
 }
 
-// The labels of the whole blocks at a phase.
+bool sameBlock(const Array3D<float>& p, const Vec3i& a, const Array3D<float>& q, const Vec3i& b,
+               const Vec3i& block, float tolerance) {
+  for (int k = 0; k < block.z; ++k)
+    for (int j = 0; j < block.y; ++j) {
+      const float* row = &p(a.x, a.y + j, a.z + k);
+      const float* other = &q(b.x, b.y + j, b.z + k);
+      for (int i = 0; i < block.x; ++i)
+        if (std::abs(row[i] - other[i]) > tolerance) return false;
+    }
+  return true;
+}
+
+// Where blocks are taken from a field.
+struct Lattice {
+  Vec3i block{}, step{}, phase{};
+
+  Vec3i cells(const Vec3i& size) const {
+    Vec3i cells;
+    for (int axis = 0; axis < 3; ++axis)
+      cells[axis] = (size[axis] - phase[axis] - block[axis]) / step[axis] + 1;
+    return cells;
+  }
+  Vec3i start(const Vec3i& cell) const { return phase + corner(cell, step); }
+};
+
+// The labels of a field's blocks.
 struct Labelled {
   Vec3i cells{};
   std::vector<int> label;    // of each cell
@@ -79,38 +111,22 @@ struct Labelled {
   }
 };
 
-bool sameBlock(const Array3D<float>& values, const Vec3i& a, const Vec3i& b, const Vec3i& block,
-               float tolerance) {
-  for (int k = 0; k < block.z; ++k)
-    for (int j = 0; j < block.y; ++j) {
-      const float* p = &values(a.x, a.y + j, a.z + k);
-      const float* q = &values(b.x, b.y + j, b.z + k);
-      for (int i = 0; i < block.x; ++i)
-        if (std::abs(p[i] - q[i]) > tolerance) return false;
-    }
-  return true;
-}
-
-Labelled label(const Array3D<float>& values, const Vec3i& block, const Vec3i& phase,
-               double tolerance) {
+// Nothing where there are more than `most` labels.
+std::optional<Labelled> label(const Array3D<float>& values, const Lattice& lattice,
+                              double tolerance, int most) {
   Labelled result;
-  for (int axis = 0; axis < 3; ++axis)
-    result.cells[axis] = (values.size()[axis] - phase[axis]) / block[axis];
+  result.cells = lattice.cells(values.size());
   const Array3D<std::uint8_t> cells(result.cells);
-  const auto start = [&](const Vec3i& cell) { return phase + corner(cell, block); };
   result.label.resize(cells.count());
   for (std::size_t c = 0; c < cells.count(); ++c) {
     const Vec3i cell = cells.ijk(c);
     std::size_t l = 0;
-    while (l < result.first.size() && !sameBlock(values, start(result.first[l]), start(cell), block,
-                                                 static_cast<float>(tolerance)))
+    while (l < result.first.size() &&
+           !sameBlock(values, lattice.start(result.first[l]), values, lattice.start(cell),
+                      lattice.block, static_cast<float>(tolerance)))
       ++l;
     if (l == result.first.size()) {
-      if (l == static_cast<std::size_t>(kMostLabels)) {
-        throw InputError(
-            "the example has more than 65,536 different blocks; use larger ones, a "
-            "larger tolerance or a smaller example");
-      }
+      if (l == static_cast<std::size_t>(most)) return std::nullopt;
       result.first.push_back(cell);
     }
     result.label[c] = static_cast<int>(l);
@@ -118,11 +134,25 @@ Labelled label(const Array3D<float>& values, const Vec3i& block, const Vec3i& ph
   return result;
 }
 
+[[noreturn]] void refuseLabels(int most) {
+  throw InputError("the example has more than " + std::to_string(most) +
+                   " different blocks; use larger ones, a larger tolerance or a smaller example");
+}
+
+Labelled labelOrThrow(const Array3D<float>& values, const Lattice& lattice, double tolerance) {
+  std::optional<Labelled> labelled = label(values, lattice, tolerance, kMostBlocks);
+  if (!labelled) refuseLabels(kMostBlocks);
+  return std::move(*labelled);
+}
+
 // Axis after axis, twice: the phase at which most blocks are repeated.
 Vec3i findPhase(const Array3D<float>& values, const Vec3i& block, double tolerance,
                 const Progress& progress) {
+  const auto repetition = [&](const Vec3i& phase) {
+    return labelOrThrow(values, {block, block, phase}, tolerance).repetition();
+  };
   Vec3i best{};
-  double repetition = label(values, block, best, tolerance).repetition();
+  double highest = repetition(best);
   for (int round = 0; round < 2; ++round)
     for (int axis = 0; axis < 3; ++axis) {
       progress.report("finding how blocks repeat", (3 * round + axis) / 6.0);
@@ -134,17 +164,38 @@ Vec3i findPhase(const Array3D<float>& values, const Vec3i& block, double toleran
           if (progress.cancelled()) return;
           Vec3i phase = best;
           phase[axis] = static_cast<int>(p);
-          found[p] = label(values, block, phase, tolerance).repetition();
+          found[p] = repetition(phase);
         }
       });
       if (progress.cancelled()) return best;
       for (int p = 0; p < phases; ++p)
-        if (found[static_cast<std::size_t>(p)] > repetition) {
-          repetition = found[static_cast<std::size_t>(p)];
+        if (found[static_cast<std::size_t>(p)] > highest) {
+          highest = found[static_cast<std::size_t>(p)];
           best[axis] = p;
         }
     }
   return best;
+}
+
+// Blocks that overlap are taken as densely as the number of labels allows.
+Labelled labelOverlapping(const Array3D<float>& values, const Vec3i& stride, double tolerance,
+                          Lattice& lattice, const Progress& progress) {
+  for (int densest = 1;; densest *= 2) {
+    progress.report("taking overlapping blocks", 0);
+    // Steps that divide the stride, so that the example's own neighbors are among the pairs.
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool overlaps = stride[axis] < lattice.block[axis];
+      int step = overlaps ? std::min(densest, stride[axis]) : stride[axis];
+      while (stride[axis] % step != 0) --step;
+      lattice.step[axis] = step;
+    }
+    const bool sparsest = lattice.step == stride;
+    const int most = sparsest ? kMostOverlapping : kGoodOverlapping;
+    std::optional<Labelled> labelled = label(values, lattice, tolerance, most);
+    if (labelled) return std::move(*labelled);
+    if (sparsest) refuseLabels(kMostOverlapping);
+    if (progress.cancelled()) return {};
+  }
 }
 
 double squaredDifference(const Array3D<float>& values, const Vec3i& a, const Vec3i& b,
@@ -173,8 +224,8 @@ std::vector<Vec3i> findMedoids(const Array3D<float>& values, const FieldBlocks& 
       for (std::size_t m = 0; m < members.size(); m += step) {
         double sum = 0;
         for (std::size_t n = 0; n < members.size(); n += step)
-          sum += squaredDifference(values, blocks.phase + corner(members[m], blocks.block),
-                                   blocks.phase + corner(members[n], blocks.block), blocks.block);
+          sum += squaredDifference(values, blocks.phase + corner(members[m], blocks.step),
+                                   blocks.phase + corner(members[n], blocks.step), blocks.block);
         if (sum >= least) continue;
         least = sum;
         medoids[l] = members[m];
@@ -236,12 +287,33 @@ FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& 
                        " is out of range for blocks of " + std::to_string(side) + " samples");
     }
   }
+  blocks.tolerance = options.tolerance;
+  blocks.truncation = options.truncation;
+  blocks.stride = blocks.block;
+  if (options.overlap > 0) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (blocks.block[axis] == field.size()[axis]) continue;
+      if (options.overlap >= blocks.block[axis]) {
+        throw InputError("blocks of " + std::to_string(blocks.block[axis]) +
+                         " samples cannot overlap by " + std::to_string(options.overlap) +
+                         "; use larger blocks or a smaller overlap");
+      }
+      blocks.stride[axis] = blocks.block[axis] - options.overlap;
+    }
+  }
   const Array3D<float> values = truncated(field, options.truncation);
-  blocks.phase =
-      options.phase ? *options.phase : findPhase(values, blocks.block, options.tolerance, progress);
+  Lattice lattice{blocks.block, blocks.stride, options.phase.value_or(Vec3i{})};
+  Labelled labelled;
+  if (options.overlap > 0) {
+    labelled = labelOverlapping(values, blocks.stride, options.tolerance, lattice, progress);
+  } else {
+    if (!options.phase)
+      lattice.phase = findPhase(values, blocks.block, options.tolerance, progress);
+    if (!progress.cancelled()) labelled = labelOrThrow(values, lattice, options.tolerance);
+  }
   if (progress.cancelled()) return {};
-
-  const Labelled labelled = label(values, blocks.block, blocks.phase, options.tolerance);
+  blocks.phase = lattice.phase;
+  blocks.step = lattice.step;
   blocks.repetition = labelled.repetition();
   blocks.grid.cells = Array3D<Label>(labelled.cells);
   blocks.members.resize(labelled.first.size());
@@ -250,11 +322,72 @@ FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& 
     blocks.members[static_cast<std::size_t>(labelled.label[c])].push_back(blocks.grid.cells.ijk(c));
   }
   blocks.grid.labels.resize(labelled.first.size());
-  blocks.grid.cellSize = cast<double>(blocks.block) * field.voxelSize;
+  blocks.grid.cellSize = cast<double>(blocks.stride) * field.voxelSize;
   const Vec3d half{0.5, 0.5, 0.5};
   blocks.grid.origin = field.position(cast<double>(blocks.phase) - half);
   blocks.medoid = findMedoids(values, blocks);
+  blocks.adjacency =
+      options.overlap > 0 ? overlapAdjacency(values, blocks) : findAdjacency(blocks.grid);
   return blocks;
+}
+
+RecognizedBlocks recognizeBlocks(const DistanceField& field, const DistanceField& example,
+                                 const FieldBlocks& blocks, const Progress& progress) {
+  if (blocks.stride != blocks.block)
+    throw InputError("only blocks that do not overlap can be recognized in a result");
+  for (int axis = 0; axis < 3; ++axis)
+    if (field.size()[axis] < blocks.block[axis])
+      throw InputError("the result is smaller than a block of " +
+                       std::to_string(blocks.block[axis]) + " samples");
+  const Array3D<float> values = truncated(field, blocks.truncation);
+  const Array3D<float> known = truncated(example, blocks.truncation);
+  const int labels = blocks.grid.labelCount();
+  const auto labelAt = [&](const Vec3i& start) {
+    int l = 0;
+    while (l < labels &&
+           !sameBlock(known, blocks.phase + corner(blocks.members[l][0], blocks.step), values,
+                      start, blocks.block, static_cast<float>(blocks.tolerance)))
+      ++l;
+    return l;
+  };
+  // All phases, each judged by a few blocks all over the field: where nothing repeats, a phase that
+  // is wrong along one axis says nothing of the others.
+  const auto knownBlocks = [&](const Vec3i& phase) {
+    const Lattice lattice{blocks.block, blocks.block, phase};
+    const Array3D<std::uint8_t> cells(lattice.cells(field.size()));
+    const std::size_t judged = std::min(cells.count(), kJudged);
+    int found = 0;
+    for (std::size_t n = 0; n < judged; ++n)
+      found += labelAt(lattice.start(cells.ijk(n * cells.count() / judged))) < labels;
+    return static_cast<double>(found) / static_cast<double>(judged);
+  };
+  Vec3i phases;
+  for (int axis = 0; axis < 3; ++axis)
+    phases[axis] = std::min(blocks.block[axis], field.size()[axis] - blocks.block[axis] + 1);
+  const Array3D<std::uint8_t> allPhases(phases);
+  std::vector<double> share(allPhases.count());
+  progress.report("recognizing blocks", 0);
+  parallelFor(0, share.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end && !progress.cancelled(); ++p)
+      share[p] = knownBlocks(allPhases.ijk(p));
+  });
+  if (progress.cancelled()) return {};
+  RecognizedBlocks result;
+  result.phase =
+      allPhases.ijk(static_cast<std::size_t>(std::ranges::max_element(share) - share.begin()));
+  const Lattice lattice{blocks.block, blocks.block, result.phase};
+  result.grid.cells = Array3D<Label>(lattice.cells(field.size()));
+  result.grid.labels = blocks.grid.labels;
+  result.grid.labels.push_back({});
+  result.grid.labels.back().name = "not in the example";
+  result.grid.cellSize = blocks.grid.cellSize;
+  result.grid.origin = field.position(cast<double>(result.phase) - Vec3d{0.5, 0.5, 0.5});
+  for (std::size_t c = 0; c < result.grid.cells.count(); ++c) {
+    const int l = labelAt(lattice.start(result.grid.cells.ijk(c)));
+    result.grid.cells.data()[c] = static_cast<Label>(l);
+    result.unknown += l == labels;
+  }
+  return result;
 }
 
 std::array<bool, 6> cutSides(const DistanceField& field) {
@@ -277,8 +410,8 @@ PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks
   for (Label l : labels.values())
     if (l >= blocks.members.size())
       throw InputError("label " + std::to_string(l) + " is not one of the blocks'");
-  const Vec3i size = corner(labels.size(), blocks.block);
-  requireMemory(static_cast<double>(labels.count()) * static_cast<double>(volume(blocks.block)) *
+  const Vec3i size = corner(labels.size(), blocks.stride);
+  requireMemory(static_cast<double>(labels.count()) * static_cast<double>(volume(blocks.stride)) *
                     (sizeof(float) + sizeof(Origin)),
                 "the result", "ask for a smaller one");
   PlacedBlocks placed;
@@ -290,7 +423,7 @@ PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks
 
   // How little a block's continuation across a low face agrees with what stands there.
   const auto disagreement = [&](const Vec3i& from, const Vec3i& to, int axis, double limit) {
-    Vec3i face = blocks.block;
+    Vec3i face = blocks.stride;
     face[axis] = 1;
     double sum = 0;
     for (int k = 0; k < face.z; ++k)
@@ -311,13 +444,13 @@ PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks
     return sum;
   };
   for (std::size_t c = 0; c < labels.count(); ++c) {
-    const Vec3i cell = labels.ijk(c), to = corner(cell, blocks.block);
+    const Vec3i cell = labels.ijk(c), to = corner(cell, blocks.stride);
     const Label l = labels.data()[c];
     Vec3i best = blocks.medoid[l];
     if (cell != Vec3i{}) {
       double least = std::numeric_limits<double>::infinity();
       for (const Vec3i& member : blocks.members[l]) {
-        const Vec3i from = blocks.phase + corner(member, blocks.block);
+        const Vec3i from = blocks.phase + corner(member, blocks.step);
         double sum = 0;
         for (int axis = 0; axis < 3 && sum < least; ++axis)
           if (cell[axis] > 0) sum += disagreement(from, to, axis, least - sum);
@@ -326,10 +459,10 @@ PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks
         best = member;
       }
     }
-    const Vec3i from = blocks.phase + corner(best, blocks.block);
-    for (int k = 0; k < blocks.block.z; ++k)
-      for (int j = 0; j < blocks.block.y; ++j)
-        for (int i = 0; i < blocks.block.x; ++i) {
+    const Vec3i from = blocks.phase + corner(best, blocks.step);
+    for (int k = 0; k < blocks.stride.z; ++k)
+      for (int j = 0; j < blocks.stride.y; ++j)
+        for (int i = 0; i < blocks.stride.x; ++i) {
           const Vec3i o{i, j, k};
           placed.field.values[to + o] = example.values[from + o];
           placed.origins[to + o] = Origin(from + o);

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "core/error.h"
+#include "voxelize/violations.h"
 
 namespace exemplar {
 namespace {
@@ -148,6 +150,118 @@ TEST(FieldBlocks, ChooseTheMemberThatAgreesWithItsNeighbors) {
     EXPECT_EQ(placed.field.values(i, 3, 5), placed.field.values(0, 3, 5));
 }
 
+TEST(FieldBlocks, ThatOverlapMayStandWhereTheirSharedSamplesAgree) {
+  // Hills without a period; blocks at every place along x and y.
+  const DistanceField field = ground({28, 24, 20});
+  const FieldBlocks blocks = cutIntoBlocks(
+      field, {.block = {6, 5, 20}, .tolerance = 0.25, .truncation = 1.5, .overlap = 2});
+  EXPECT_EQ(blocks.stride, (Vec3i{4, 3, 20}));
+  EXPECT_EQ(blocks.step, (Vec3i{1, 1, 20}));
+  EXPECT_EQ(blocks.grid.size(), (Vec3i{23, 20, 1}));
+  const int labels = blocks.grid.labelCount();
+  ASSERT_EQ(blocks.adjacency.labelCount, labels);
+  EXPECT_TRUE(blocks.adjacency.rules[2].pairs.empty());  // one block high
+  const auto sample = [&](Label l, const Vec3i& p) {
+    return truncatedAt(field, blocks.phase + times(blocks.members[l][0], blocks.step) + p, 1.5);
+  };
+  for (int axis = 0; axis < 2; ++axis) {
+    const PairRule& rule = blocks.adjacency.rules[axis];
+    std::int64_t allowed = 0;
+    for (Label a = 0; a < labels; ++a)
+      for (Label b = 0; b < labels; ++b) {
+        // Brute force over the samples that b shares with a, a stride before it.
+        double farthest = 0;
+        Vec3i size = blocks.block;
+        size[axis] = 2;
+        for (int n = 0; n < volume(size); ++n) {
+          const Vec3i p{n % size.x, n / size.x % size.y, n / (size.x * size.y)};
+          Vec3i q = p;
+          q[axis] += blocks.stride[axis];
+          farthest = std::max(farthest, std::abs(sample(a, q) - sample(b, p)));
+        }
+        if (std::abs(farthest - 0.5) < 1e-3) continue;  // rounding decides
+        ASSERT_EQ(rule.allows(a, b), farthest < 0.5) << axis << ": " << a << ", " << b;
+        allowed += rule.allows(a, b);
+      }
+    EXPECT_GT(allowed, labels);
+    EXPECT_LT(allowed, std::int64_t{labels} * labels / 4);
+  }
+  // Every pair that the example shows is one of them, as often as it shows it.
+  std::int64_t shown = 0;
+  for (std::size_t c = 0; c < blocks.grid.cells.count(); ++c) {
+    const Vec3i cell = blocks.grid.cells.ijk(c), next = cell + Vec3i{4, 0, 0};
+    if (!blocks.grid.cells.contains(next)) continue;
+    ++shown;
+    ASSERT_TRUE(blocks.adjacency.rules[0].allows(blocks.grid.cells[cell], blocks.grid.cells[next]));
+  }
+  std::int64_t counted = 0;
+  for (const LabelPair& pair : blocks.adjacency.rules[0].pairs) counted += pair.count;
+  EXPECT_GE(counted, shown);
+}
+
+TEST(FieldBlocks, ThatOverlapAreTakenLessDenselyWhereThereAreTooMany) {
+  const DistanceField field = ground({72, 72, 12});  // 65² places
+  const FieldBlocks blocks =
+      cutIntoBlocks(field, {.block = {8, 8, 12}, .tolerance = 0, .overlap = 2});
+  EXPECT_EQ(blocks.step, (Vec3i{2, 2, 12}));
+  EXPECT_LE(blocks.grid.labelCount(), 4096);
+}
+
+TEST(FieldBlocks, ThatOverlapArePutBackByTheirStride) {
+  const DistanceField field = ground({30, 28, 20});
+  const FieldBlocks blocks =
+      cutIntoBlocks(field, {.block = {6, 6, 20}, .tolerance = 0, .truncation = 50, .overlap = 2});
+  // Every fourth place of the example, as it stands there.
+  Array3D<Label> labels({6, 5, 1});
+  for (std::size_t c = 0; c < labels.count(); ++c)
+    labels.data()[c] = blocks.grid.cells[times(labels.ijk(c), {4, 4, 1})];
+  const PlacedBlocks placed = placeBlocks(field, blocks, labels);
+  ASSERT_EQ(placed.field.size(), (Vec3i{24, 20, 20}));
+  for (std::size_t s = 0; s < placed.field.values.count(); ++s)
+    ASSERT_EQ(placed.field.values.data()[s], field.values[placed.field.values.ijk(s)]);
+}
+
+TEST(FieldBlocks, AreRecognizedInTheExampleAndInPartsOfIt) {
+  const DistanceField field = ground({64, 48, 32});
+  const FieldBlocks blocks = cutIntoBlocks(field, {.block = {8, 8, 32}});
+  const RecognizedBlocks whole = recognizeBlocks(field, field, blocks);
+  EXPECT_EQ(whole.unknown, 0);
+  EXPECT_EQ(whole.phase, blocks.phase);
+  EXPECT_EQ(whole.grid.cells, blocks.grid.cells);
+  EXPECT_EQ(findViolations(whole.grid, blocks.grid).count, 0);
+
+  // Cut off elsewhere: the phase moves along.
+  const Vec3i from{3, 5, 0};
+  DistanceField part = makeField(
+      {50, 40, 32}, [&](const Vec3i& p) { return field.values[p + from] / field.voxelSize; });
+  const RecognizedBlocks found = recognizeBlocks(part, field, blocks);
+  EXPECT_EQ(found.unknown, 0);
+  EXPECT_EQ(findViolations(found.grid, blocks.grid).count, 0);
+}
+
+TEST(FieldBlocks, ThatAnExampleHasNotAreUnknown) {
+  const DistanceField field = ground({64, 48, 32});
+  const FieldBlocks blocks = cutIntoBlocks(field, {.block = {8, 8, 32}});
+  DistanceField other = field;
+  // A shaft through one block: it is none of the example's, nor are its pairs.
+  for (int z = 0; z < 32; ++z)
+    for (int y = 18; y < 21; ++y)
+      for (int x = 19; x < 22; ++x) other.values[Vec3i{x, y, z}] = 1;
+  const RecognizedBlocks found = recognizeBlocks(other, field, blocks);
+  EXPECT_EQ(found.unknown, 1);
+  EXPECT_EQ(findViolations(found.grid, blocks.grid).count, 4);
+  // Two blocks of the example, exchanged: known, but strangers to their neighbors.
+  DistanceField exchanged = field;
+  for (int z = 0; z < 32; ++z)
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x)
+        std::swap(exchanged.values[blocks.phase + Vec3i{x, y, z}],
+                  exchanged.values[blocks.phase + Vec3i{x + 32, y + 24, z}]);
+  const RecognizedBlocks swapped = recognizeBlocks(exchanged, field, blocks);
+  EXPECT_EQ(swapped.unknown, 0);
+  EXPECT_GE(findViolations(swapped.grid, blocks.grid).count, 4);
+}
+
 TEST(FieldBlocks, KnowTheSidesWhereTheirExampleIsCut) {
   using Sides = std::array<bool, 6>;
   EXPECT_EQ(cutSides(ground({24, 24, 24})), (Sides{true, true, true, true, true, false}));
@@ -163,6 +277,15 @@ TEST(FieldBlocks, AreTheSameAtOneAndEightThreads) {
   EXPECT_EQ(a.grid.cells, b.grid.cells);
   EXPECT_EQ(a.phase, b.phase);
   EXPECT_EQ(a.medoid, b.medoid);
+  const auto overlapped = [&] {
+    return cutIntoBlocks(field, {.block = {6, 6, 24}, .tolerance = 0.5, .overlap = 2});
+  };
+  const FieldBlocks c = one.execute(overlapped), d = eight.execute(overlapped);
+  EXPECT_EQ(c.grid.cells, d.grid.cells);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_EQ(c.adjacency.rules[axis].pairs, d.adjacency.rules[axis].pairs);
+  const auto recognize = [&] { return recognizeBlocks(field, field, a); };
+  EXPECT_EQ(one.execute(recognize).grid.cells, eight.execute(recognize).grid.cells);
 }
 
 TEST(FieldBlocks, RefuseWhatTheyCannotHonour) {
@@ -174,6 +297,11 @@ TEST(FieldBlocks, RefuseWhatTheyCannotHonour) {
   EXPECT_THROW(cutIntoBlocks(field, {.tolerance = -1}), InputError);
   EXPECT_THROW(cutIntoBlocks(field, {.tolerance = std::nan("")}), InputError);
   EXPECT_THROW(cutIntoBlocks(field, {.truncation = 0}), InputError);
+  EXPECT_THROW(cutIntoBlocks(field, {.block = {8, 8, 8}, .overlap = 8}), InputError);
+  EXPECT_THROW(cutIntoBlocks(field, {.block = {8, 8, 8}, .overlap = -1}), InputError);
+  const FieldBlocks overlapping = cutIntoBlocks(field, {.block = {8, 8, 16}, .overlap = 4});
+  EXPECT_THROW(recognizeBlocks(field, field, overlapping), InputError);
+  EXPECT_THROW(recognizeBlocks(ground({4, 24, 16}), field, cutIntoBlocks(field)), InputError);
   const FieldBlocks blocks = cutIntoBlocks(field, {.block = {8, 8, 8}});
   EXPECT_THROW(placeBlocks(field, blocks, {}), InputError);
   EXPECT_THROW(placeBlocks(field, blocks, Array3D<Label>({2, 2, 2}, 60000)), InputError);
