@@ -12,10 +12,13 @@
 #include "apps/command.h"
 #include "apps/comparison.h"
 #include "apps/json.h"
+#include "apps/report.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/memory.h"
 #include "measure/figures.h"
+#include "mesh/image.h"
 #include "mesh/mesh_file.h"
 #include "sdf/vdb_file.h"
 
@@ -35,10 +38,10 @@ struct Options {
 };
 
 ComparedEngine parseEngine(const std::string& name) {
-  for (const ComparedEngine engine :
-       {ComparedEngine::Blocks, ComparedEngine::Optimize, ComparedEngine::Model})
+  for (const ComparedEngine engine : {ComparedEngine::Blocks, ComparedEngine::Optimize,
+                                      ComparedEngine::Model, ComparedEngine::Overlap})
     if (name == engineName(engine)) return engine;
-  throw InputError("--engines " + name + ": expected blocks, optimize or model");
+  throw InputError("--engines " + name + ": expected blocks, optimize, model or overlap");
 }
 
 void makeFolder(const fs::path& folder) {
@@ -48,6 +51,9 @@ void makeFolder(const fs::path& folder) {
     throw InputError(folder.string() + ": cannot be made a folder; name one that can");
   }
 }
+
+/// What is kept of a run beside its figures; another number where that changes.
+constexpr int kParts = 2;
 
 /// What decides a run's result: a finished run with the same is not made again. The example counts
 /// with its samples, so that an edited file is another one.
@@ -64,7 +70,8 @@ Json requestOf(const Options& options, const Example& example, const Vec3d& scal
           {"hash", hash},
           {"scale", toJson(scale)},
           {"engine", engine},
-          {"seed", seed}};
+          {"seed", seed},
+          {"parts", kParts}};
 }
 
 /// A run that was finished before, if it was made by the same request and its files are there.
@@ -73,7 +80,7 @@ std::optional<Json> finishedRun(const fs::path& file, const Json& request, const
   const Json run = Json::parse(readFile(file), nullptr, false);
   if (run.is_discarded() || !run.is_object() || run.value("request", Json()) != request)
     return std::nullopt;
-  for (const char* part : {"mesh", "picture", "field", "origins"})
+  for (const char* part : {"mesh", "picture", "field", "origins", "view"})
     if (run.contains(part) && !fs::exists(folder / run.at(part).get<std::string>()))
       return std::nullopt;
   return run;
@@ -95,7 +102,12 @@ Json makeRun(const Options& options, const Example& example, const Vec3d& scale,
   }
   run["samples"] = toJson(result.field.size());
   run["seconds"] = result.seconds;
-  if (result.violations) run["adjacency_violations"] = *result.violations;
+  if (result.peakBytes) run["peak_memory_bytes"] = *result.peakBytes;
+  if (result.violations) {
+    run["adjacency_pairs"] = *result.pairs;
+    run["adjacency_violations"] = *result.violations;
+    run["unknown_blocks"] = *result.unknownBlocks;
+  }
   MeasureInput input;
   input.origins = &result.origins;
   input.mesh = &result.mesh;
@@ -106,6 +118,11 @@ Json makeRun(const Options& options, const Example& example, const Vec3d& scale,
   terminal.step("drawing " + name);
   const Image8 image = render(result.mesh, picture, terminal.progress());
   terminal.stopIfInterrupted();
+  terminal.step("marking " + name);
+  const ResultParts parts = resultParts(result.mesh, &example.field, &result.field, &result.origins,
+                                        picture, kManyViews, terminal.progress());
+  terminal.stopIfInterrupted();
+  run["marks"] = toJson(parts.marks);
   run["mesh"] = name + ".glb";
   run["picture"] = name + ".png";
   run["field"] = name + ".vdb";
@@ -114,7 +131,56 @@ Json makeRun(const Options& options, const Example& example, const Vec3d& scale,
   writePng(folder / (name + ".png"), image);
   writeVdb(folder / (name + ".vdb"), result.field);
   writeOriginsVdb(folder / (name + "-origins.vdb"), result.origins, result.field);
+  if (!parts.view.empty()) {
+    run["view"] = name + "-view.json";
+    writeFile(folder / (name + "-view.json"), parts.view);
+  }
   return run;
+}
+
+Image8 readPicture(const fs::path& path) { return decodeImage(readFile(path), path.string()); }
+
+/// The page: the comparison, with views and pictures of as many runs as there is room for.
+std::string comparisonPage(const Json& comparison, const fs::path& folder,
+                           const std::string& exampleView, const RenderOptions& picture) {
+  Json report = reportHead("comparison", comparison.at("example").get<std::string>(),
+                           comparison.at("description"), picture);
+  report["example"]["samples"] = comparison.at("samples");
+  for (const char* key : {"voxel_size", "scale", "notes", "figures"})
+    report[key] = comparison.at(key);
+  ReportPage page;
+  page.addPicture("example", readPicture(folder / "example.png"));
+  if (!exampleView.empty()) page.addView("example", exampleView);
+  int left = 0;
+  // The pictures first: they are small, and show what a view cannot where there is none.
+  for (Json run : comparison.at("runs")) {
+    if (run.contains("picture")) {
+      const std::string name = fs::path(run.at("picture").get<std::string>()).stem().string();
+      if (page.bytes() < kReportBytes / 2) {
+        page.addPicture(name, readPicture(folder / run.at("picture").get<std::string>()));
+      }
+      run["picture"] = name;
+    }
+    report["runs"].push_back(std::move(run));
+  }
+  for (Json& run : report["runs"]) {
+    if (!run.contains("view")) continue;
+    std::string view = readFile(folder / run.at("view").get<std::string>());
+    const std::string name = run.at("picture");
+    run["view"] = name;
+    if (page.bytes() + view.size() <= kReportBytes) {
+      page.addView(name, std::move(view));
+    } else {
+      ++left;
+    }
+  }
+  if (left > 0) {
+    report["notes"].push_back("To keep this page small, " + std::to_string(left) +
+                              " of the results are shown as pictures, or by figures alone; their "
+                              "meshes lie beside this page.");
+  }
+  requireMemory(3.0 * static_cast<double>(page.bytes()), "report.html", "give fewer --seeds");
+  return page.html(report);
 }
 
 /// A figure to two digits; "none" where there was nothing to measure.
@@ -152,9 +218,11 @@ void compare(const Options& options) {
   const Vec3d scale = options.scale.empty() ? example.scale : parseTriple(options.scale, "--scale");
 
   terminal.step("drawing the example");
-  writePng(folder / "example.png",
-           render(loadForPicture(options.example, options.reading, terminal.progress()), picture,
-                  terminal.progress()));
+  const TriangleMesh exampleMesh =
+      loadForPicture(options.example, options.reading, terminal.progress());
+  writePng(folder / "example.png", render(exampleMesh, picture, terminal.progress()));
+  const std::string view =
+      exampleView(exampleMesh, &example.field, picture, kManyViews, terminal.progress());
   terminal.stopIfInterrupted();
 
   Json comparison{
@@ -171,7 +239,11 @@ void compare(const Options& options) {
         "everywhere.",
         "model's results are whole blocks, so their size may differ by less than half a block.",
         "seconds are of synthesis alone, on all cores in use."}},
+      {"figures", Json::array()},
       {"runs", Json::array()}};
+  for (const Figure& figure : figures(Measures{}))
+    comparison["figures"].push_back(
+        {{"group", figure.group}, {"key", figure.key}, {"meaning", figure.meaning}});
   for (int s = 0; s < options.seeds; ++s) {
     for (const std::string& engine : options.engines) {
       const std::uint64_t seed = options.firstSeed + static_cast<std::uint64_t>(s);
@@ -190,7 +262,7 @@ void compare(const Options& options) {
     }
   }
   writeFile(folder / "compare.json", comparison.dump(2) + "\n");
-  writeFile(folder / "report.html", comparisonPage(comparison, folder));
+  writeFile(folder / "report.html", comparisonPage(comparison, folder, view, picture));
   terminal.say("figures", (folder / "compare.json").string());
   terminal.say("report", (folder / "report.html").string());
 }
@@ -213,7 +285,10 @@ CommandRun addCompareCommand(CLI::App& app) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--seed", options->firstSeed, "the first of them")->capture_default_str();
-  command->add_option("--engines", options->engines, "which: blocks, optimize, model")
+  command
+      ->add_option("--engines", options->engines,
+                   "which: blocks, optimize, model, overlap (model on blocks that overlap; slow on "
+                   "solid fields)")
       ->delimiter(',')
       ->option_text("blocks,optimize,model");
   command->add_option("--scale", options->scale,

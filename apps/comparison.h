@@ -3,11 +3,9 @@
 
 #pragma once
 
-#include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "apps/example.h"
 #include "core/origin.h"
@@ -21,6 +19,7 @@ enum class ComparedEngine {
   Blocks,    ///< geometry synthesis by best-matching blocks (Lagae 2004)
   Optimize,  ///< geometry synthesis by patch optimisation
   Model,     ///< model synthesis on blocks of the same distance field (`voxelize/field_blocks.h`)
+  Overlap,   ///< the same on blocks that overlap, for examples without a grid
 };
 const char* engineName(ComparedEngine engine);
 
@@ -31,18 +30,18 @@ struct ComparedResult {
   DistanceField field;
   Origins origins;
   TriangleMesh mesh;
-  double seconds = 0;                              ///< of synthesis alone
-  std::optional<std::int64_t> labels, violations;  ///< Model: adjacencies that the example has not
+  double seconds = 0;                      ///< of synthesis alone
+  std::optional<std::uint64_t> peakBytes;  ///< resident while it ran, surface included
+  std::optional<std::int64_t> labels;      ///< Model, Overlap: kinds of blocks
+  /// With the example cut into blocks that tile, and the result read in these: pairs of neighbors,
+  /// those of them that the example does not show, and the share of blocks that it has not.
+  std::optional<std::int64_t> pairs, violations;
+  std::optional<double> unknownBlocks;
 };
 
 /// Runs one engine at its defaults. `scale`: the result's size as a multiple of the example's;
 /// Model's is rounded to whole blocks.
 ComparedResult runEngine(ComparedEngine engine, const Example& example, const Vec3d& scale,
                          std::uint64_t seed, const Progress& progress);
-
-/// A page that shows what a comparison found: one file that opens from disk, with the pictures
-/// inside. `comparison` is what `compare.json` holds; pictures are read from `folder`.
-std::string comparisonPage(const nlohmann::ordered_json& comparison,
-                           const std::filesystem::path& folder);
 
 }  // namespace exemplar

@@ -20,7 +20,7 @@ install(TARGETS exemplar_all_rooms ${exemplar_rooms} EXPORT exemplarTargets
 install(EXPORT exemplarTargets NAMESPACE exemplar:: DESTINATION ${exemplar_package})
 
 # Headers keep their rooms: they include each other from the root of the house.
-foreach(room core mesh sdf voxelize search synth reconstruct measure preview)
+foreach(room core mesh sdf voxelize search synth reconstruct measure preview report)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/exemplar FILES_MATCHING PATTERN "*.h")
 endforeach()

@@ -33,6 +33,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"reconstruct", {"core", "mesh", "sdf"}},
     {"measure", {"core", "mesh", "sdf", "voxelize"}},
     {"preview", {"core", "mesh"}},
+    {"report", {"core", "mesh", "sdf", "reconstruct", "measure", "preview"}},
 };
 
 std::string roomOf(const std::string& path) {

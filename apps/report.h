@@ -1,0 +1,69 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "apps/example.h"
+#include "core/origin.h"
+#include "core/progress.h"
+#include "mesh/triangle_mesh.h"
+#include "preview/render.h"
+#include "report/page.h"
+#include "sdf/distance_field.h"
+
+namespace exemplar {
+
+/// What every report says first; `kind` is "comparison" or "result". Runs are added to `runs`.
+nlohmann::ordered_json reportHead(const std::string& kind, const std::filesystem::path& example,
+                                  const std::string& description, const RenderOptions& picture);
+
+/// The samples that figures speak of.
+void describeField(nlohmann::ordered_json& report, const DistanceField& example);
+
+/// A result as reports show it: the surface to turn, and marks where it has origins.
+struct ResultParts {
+  std::string view;              ///< for `ReportPage::addView`; empty where pages show pictures
+  std::vector<Mark> marks;       ///< of what shows that it was put together
+  std::optional<Camera> camera;  ///< of its picture
+};
+
+/// Triangles of a view where a page holds two of them, and where it holds one for each run.
+inline constexpr std::int64_t kFewViews = 250000, kManyViews = 90000;
+
+/// The view of an example, coloured by where it is itself; empty where pages show pictures.
+/// `field` may be nothing.
+std::string exampleView(const TriangleMesh& mesh, const DistanceField* field,
+                        const RenderOptions& picture, std::int64_t triangles,
+                        const Progress& progress);
+
+/// The view and marks of a result. Without `example`, `field` and `origins` only what the mesh
+/// tells.
+ResultParts resultParts(const TriangleMesh& mesh, const DistanceField* example,
+                        const DistanceField* field, const Origins* origins,
+                        const RenderOptions& picture, std::int64_t triangles,
+                        const Progress& progress);
+
+/// One result beside its example, as `synth` and `measure` report it.
+struct ResultReport {
+  std::filesystem::path page;     ///< where to write it
+  std::filesystem::path example;  ///< the example's file
+  std::string description;        ///< of the example, for people
+  const TriangleMesh& exampleMesh;
+  const TriangleMesh& mesh;  ///< of the result
+  /// What figures and marks are taken from, where there is any.
+  const DistanceField* exampleField = nullptr;
+  const DistanceField* field = nullptr;
+  const Origins* origins = nullptr;
+};
+
+/// Writes a page of one result, whole or not at all. `run` says what is known of it ("engine",
+/// "seed", "figures", ...). Nothing is written where `progress` cancels.
+void writeResultReport(const ResultReport& report, nlohmann::ordered_json run,
+                       const RenderOptions& picture, const Progress& progress);
+
+}  // namespace exemplar

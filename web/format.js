@@ -1,0 +1,135 @@
+// Helpers of the page: making elements, writing numbers, and what is known of each figure.
+'use strict';
+
+/// An element: attributes (functions become listeners, `true` an empty attribute), then children.
+function h(tag, attributes = {}, ...children) {
+  const svg = /^(svg|g|line|circle|rect|path|text|polygon|polyline|title)$/.test(tag);
+  const element = svg ? document.createElementNS('http:\/\/www.w3.org/2000/svg', tag) : document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === undefined || value === null || value === false) continue;
+    if (typeof value === 'function') element.addEventListener(name, value);
+    else element.setAttribute(name, value === true ? '' : value);
+  }
+  element.append(...children.flat(3).filter((c) => c !== null && c !== undefined && c !== false));
+  return element;
+}
+
+const kDash = '–';
+
+/// Four digits that count, as the command's own table writes them.
+function number(value) {
+  if (value === null || value === undefined) return kDash;
+  if (typeof value === 'boolean') return value ? 'yes' : 'no';
+  if (typeof value === 'string') return value.replaceAll('_', ' ');
+  if (!Number.isFinite(value)) return kDash;
+  if (Number.isInteger(value)) return grouped(value);
+  if (Math.abs(value) < 0.001) return value.toExponential(1);
+  return Math.abs(value) >= 10000 ? grouped(Math.round(value)) : String(Number(value.toPrecision(4)));
+}
+function short(value) {
+  if (typeof value !== 'number') return number(value);
+  return Math.abs(value) >= 1000 ? grouped(Math.round(value)) : String(Number(value.toPrecision(3)));
+}
+function grouped(n) {
+  return String(n).replace(/\B(?=(\d{3})+(?!\d))/g, '\u2009');
+}
+function seconds(s) {
+  if (s === null || s === undefined) return kDash;
+  if (s < 0.0095) return `${Number((1000 * s).toPrecision(2))} ms`;
+  if (s < 60) return `${Number(s.toPrecision(2))} s`;
+  return `${Math.floor(s / 60)} min ${Math.round(s % 60)} s`;
+}
+function bytes(b) {
+  if (b === null || b === undefined) return kDash;
+  return b < 1e9 ? `${Math.round(b / 1e6)} MB` : `${(b / 1e9).toFixed(1)} GB`;
+}
+const times = (size) => (size ? size.map(grouped).join(' × ') : kDash);
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+function meanOf(values) {
+  return values.reduce((a, b) => a + b, 0) / values.length;
+}
+function deviationOf(values) {
+  if (values.length < 2) return null;
+  const mean = meanOf(values);
+  return Math.sqrt(values.reduce((a, b) => a + (b - mean) ** 2, 0) / (values.length - 1));
+}
+
+/// What figures are called, in what unit, and where the best value is. Others keep their key.
+const kFigures = {
+  'likeness.lp_dense': { label: 'Likeness', best: 1, from: 0, to: 1 },
+  'likeness.coverage': { label: 'Coverage', best: 1, from: 0, to: 1 },
+  'likeness.lp_dense_interior': { label: 'Likeness, inside', best: 1, from: 0, to: 1 },
+  'likeness.coverage_interior': { label: 'Coverage, inside', best: 1, from: 0, to: 1 },
+  'likeness.lp_dense_mean_iou': { label: 'Likeness, mean IoU', best: 1, from: 0, to: 1 },
+  'likeness.coverage_mean_iou': { label: 'Coverage, mean IoU', best: 1, from: 0, to: 1 },
+  'likeness.lp_published': { label: 'LP as published', best: 1, from: 0, to: 1 },
+  'likeness.fpd': { label: 'Patch distance', unit: 'voxels²' },
+  'likeness.fpd_floor': { label: 'Patch distance, floor', unit: 'voxels²' },
+  'likeness.occupancy_ratio': { label: 'Solid share', unit: '× example', best: 1 },
+  'likeness.surface_ratio': { label: 'Surface density', unit: '× example', best: 1 },
+  'likeness.pieces_per_million_cells': { label: 'Whole pieces', unit: 'per million cells' },
+  'likeness.pieces_per_million_cells_example': { label: 'Whole pieces, example', unit: 'per million cells' },
+  'likeness.pieces_depth': { label: 'Depth of pieces', unit: 'voxels' },
+  'likeness.broken_share': { label: 'Broken pieces', best: 0, from: 0 },
+  'likeness.windows': { label: 'Windows drawn' },
+  'novelty.distance_to_example': { label: 'Distance to example', from: 0, to: 1 },
+  'novelty.distance_to_shifted_example': { label: 'Distance to shifted example', from: 0, to: 1 },
+  'novelty.verbatim_run': { label: 'Copied regions', unit: '× example', from: 0 },
+  'novelty.use': { label: 'Evenness of use', best: 1, from: 0, to: 1 },
+  'novelty.used_share': { label: 'Example used', best: 1, from: 0, to: 1 },
+  'seams.seam_jump': { label: 'Seam jump', unit: 'voxels', best: 0, from: 0 },
+  'seams.seam_jump_ratio': { label: 'Seam jump', unit: '× example’s own', from: 0 },
+  'seams.seam_jump_near_surface': { label: 'Seam jump at the surface', unit: 'voxels', best: 0, from: 0 },
+  'seams.seam_jump_ratio_near_surface': { label: 'Seam jump at the surface', unit: '× example’s own', from: 0 },
+  'seams.seam_share': { label: 'Faces at seams', from: 0 },
+  'seams.eikonal_residual': { label: 'Distance error', unit: '| |∇φ| − 1 |', from: 0 },
+  'seams.eikonal_residual_example': { label: 'Distance error, example', unit: '| |∇φ| − 1 |', from: 0 },
+};
+/// The figures that are told first.
+const kMain = [
+  'likeness.lp_dense', 'likeness.coverage', 'likeness.occupancy_ratio', 'likeness.surface_ratio',
+  'novelty.used_share', 'novelty.verbatim_run', 'seams.seam_jump_near_surface', 'seams.seam_share',
+];
+
+const kEngines = {
+  blocks: { name: 'blocks', says: 'geometry synthesis by best-matching blocks', mark: 'square' },
+  optimize: { name: 'optimize', says: 'geometry synthesis by patch optimisation', mark: 'circle' },
+  model: { name: 'model', says: 'model synthesis by adjacency', mark: 'triangle' },
+};
+function engineIndex(engine) {
+  const n = Object.keys(kEngines).indexOf(engine);
+  return n < 0 ? 3 : n;
+}
+const engineSays = (engine) => (kEngines[engine] ? kEngines[engine].says : '');
+
+/// The sign of an engine about (x, y): colour and shape both tell it.
+function sign(engine, x, y, r, attributes = {}) {
+  const shape = kEngines[engine] ? kEngines[engine].mark : 'circle';
+  const attrs = { class: `engine-${engineIndex(engine)}`, ...attributes };
+  if (shape === 'square') return h('rect', { x: x - r * 0.9, y: y - r * 0.9, width: 1.8 * r, height: 1.8 * r, ...attrs });
+  if (shape === 'triangle') return h('polygon', { points: `${x},${y - 1.15 * r} ${x + 1.1 * r},${y + 0.85 * r} ${x - 1.1 * r},${y + 0.85 * r}`, ...attrs });
+  return h('circle', { cx: x, cy: y, r, ...attrs });
+}
+function signIcon(engine) {
+  return h('svg', { class: 'sign', viewBox: '0 0 14 14', width: 14, height: 14, 'aria-hidden': 'true' }, sign(engine, 7, 7, 5));
+}
+
+/// The colour of a place of the example, as views show it (surface.js): shares of each side, 0..1.
+function sourceColor([x, y, z]) {
+  const L = 0.48 + 0.34 * z, a = 0.30 * (x - 0.5), b = 0.30 * (y - 0.5);
+  const l = (L + 0.3963377774 * a + 0.2158037573 * b) ** 3;
+  const m = (L - 0.1055613458 * a - 0.0638541728 * b) ** 3;
+  const s = (L - 0.0894841775 * a - 1.291485548 * b) ** 3;
+  const rgb = [
+    4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+    -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+    -0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s,
+  ];
+  return `rgb(${rgb.map((c) => {
+    const v = Math.min(1, Math.max(0, c));
+    return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
+  }).join(' ')})`;
+}
+/// The colours of seam jumps, from none to most (surface.js).
+const kJumpColors = ['rgb(204 204 204)', 'rgb(250 217 112)', 'rgb(232 107 46)', 'rgb(168 18 82)', 'rgb(66 8 82)'];
