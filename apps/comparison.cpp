@@ -21,6 +21,9 @@
 namespace exemplar {
 namespace {
 
+/// Blocks of 8 samples that share 2, and agree there within two voxels: of those tried the
+/// strictest that can go on with a terrain.
+constexpr FieldBlocksOptions kOverlapping{.tolerance = 1, .overlap = 2};
 constexpr double kBytesPerSample = 80;  // of the field, origins, search and surface
 
 void takeGeometry(SynthesisResult made, ComparedResult& result) {
@@ -29,20 +32,21 @@ void takeGeometry(SynthesisResult made, ComparedResult& result) {
   result.origins = std::move(made.origins);
 }
 
-void runModel(const Example& example, const Vec3d& scale, std::uint64_t seed,
-              const Progress& progress, ComparedResult& result) {
-  const FieldBlocks blocks = cutIntoBlocks(example.field, {}, progress);
+/// Model synthesis by blocks cut as `cut` says.
+void runModel(const Example& example, const FieldBlocksOptions& cut, const Vec3d& scale,
+              std::uint64_t seed, const Progress& progress, ComparedResult& result) {
+  const FieldBlocks blocks = cutIntoBlocks(example.field, cut, progress);
   result.status = "cancelled";
   if (progress.cancelled()) return;
   result.labels = blocks.grid.labelCount();
   ModelOptions options;
   options.seed = seed;
-  const std::array<bool, 6> cut = cutSides(example.field);
-  for (std::size_t side = 0; side < cut.size(); ++side)
-    if (cut[side]) options.sides[side].kind = SideRule::Kind::Free;
+  const std::array<bool, 6> open = cutSides(example.field);
+  for (std::size_t side = 0; side < open.size(); ++side)
+    if (open[side]) options.sides[side].kind = SideRule::Kind::Free;
   const Vec3i wanted = scaledSize(example.field.size(), scale, "samples");
   for (int axis = 0; axis < 3; ++axis) {
-    const double cells = static_cast<double>(wanted[axis]) / blocks.block[axis];
+    const double cells = static_cast<double>(wanted[axis]) / blocks.stride[axis];
     options.size[axis] = std::max(1, static_cast<int>(std::lround(cells)));
   }
   const ModelResult made =
@@ -62,10 +66,27 @@ void runModel(const Example& example, const Vec3d& scale, std::uint64_t seed,
       break;
   }
   result.status = "complete";
-  result.violations = findViolations(made.grid(), blocks.grid).count;
   PlacedBlocks placed = placeBlocks(example.field, blocks, made.grid().cells);
   result.field = std::move(placed.field);
   result.origins = std::move(placed.origins);
+}
+
+/// Counts the pairs of blocks that the example does not show: for every engine in the same way, by
+/// the result's samples alone.
+void countViolations(const Example& example, const Progress& progress, ComparedResult& result) {
+  try {
+    const FieldBlocks blocks = cutIntoBlocks(example.field, {}, progress);
+    if (progress.cancelled()) return;
+    const RecognizedBlocks found = recognizeBlocks(result.field, example.field, blocks, progress);
+    if (progress.cancelled()) return;
+    const AdjacencyViolations violations = findViolations(found.grid, blocks.grid);
+    result.pairs = violations.pairs;
+    result.violations = violations.count;
+    result.unknownBlocks =
+        static_cast<double>(found.unknown) / static_cast<double>(found.grid.cells.count());
+  } catch (const InputError&) {
+    // Too many kinds of blocks, or a result smaller than one: nothing is counted.
+  }
 }
 
 }  // namespace
@@ -77,9 +98,11 @@ const char* engineName(ComparedEngine engine) {
     case ComparedEngine::Optimize:
       return "optimize";
     case ComparedEngine::Model:
+      return "model";
+    case ComparedEngine::Overlap:
       break;
   }
-  return "model";
+  return "overlap";
 }
 
 ComparedResult runEngine(ComparedEngine engine, const Example& example, const Vec3d& scale,
@@ -88,6 +111,7 @@ ComparedResult runEngine(ComparedEngine engine, const Example& example, const Ve
   const Vec3i size = scaledSize(example.field.size(), scale, "samples");
   requireMemory(kBytesPerSample * static_cast<double>(volume(size)),
                 "a result of " + readableSize(size), "use a lower --resolution or --scale");
+  const bool peak = resetPeakResident();
   const Stopwatch stopwatch;
   try {
     if (engine == ComparedEngine::Blocks) {
@@ -101,8 +125,10 @@ ComparedResult runEngine(ComparedEngine engine, const Example& example, const Ve
       options.size = size;
       options.seed = seed;
       takeGeometry(synthesizeOptimized(example.field, options, progress), result);
+    } else if (engine == ComparedEngine::Model) {
+      runModel(example, {}, scale, seed, progress, result);
     } else {
-      runModel(example, scale, seed, progress, result);
+      runModel(example, kOverlapping, scale, seed, progress, result);
     }
   } catch (const InputError& error) {
     // The comparison goes on: that an engine cannot take the example is a finding.
@@ -115,6 +141,8 @@ ComparedResult runEngine(ComparedEngine engine, const Example& example, const Ve
                                    {example.field, example.mesh ? &*example.mesh : nullptr},
                                    {.blend = 0}, progress)
                     .mesh;
+  if (peak) result.peakBytes = peakResidentBytes();
+  countViolations(example, progress, result);
   return result;
 }
 

@@ -3,6 +3,9 @@
 
 #include "core/memory.h"
 
+#ifdef __linux__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -67,6 +70,15 @@ std::uint64_t peakResidentBytes() {
 #else
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 #endif
+}
+
+bool resetPeakResident() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+  std::ofstream out("/proc/self/clear_refs");
+  out << 5;
+  return static_cast<bool>(out.flush());
 }
 
 void requireMemory(double bytes, const std::string& what, const std::string& advice) {

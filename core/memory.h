@@ -15,6 +15,10 @@ std::uint64_t availableMemoryBytes();
 /// The largest resident size that this process has had, in bytes.
 std::uint64_t peakResidentBytes();
 
+/// Lets `peakResidentBytes` start anew from what is resident now, after memory that nothing uses
+/// was given back. False where the system does not offer it (other than Linux): the peak stays.
+bool resetPeakResident();
+
 /// Throws `InputError` when `bytes` is more than is available: "WHAT needs 512 GB and 21 GB are
 /// available; ADVICE". Ask before taking memory whose size follows from the user's input.
 void requireMemory(double bytes, const std::string& what, const std::string& advice);

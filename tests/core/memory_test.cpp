@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <vector>
+
 #include "core/error.h"
 
 namespace exemplar {
@@ -26,6 +29,14 @@ TEST(RequireMemory, GrantsAMegabyte) { EXPECT_NO_THROW(requireMemory(1e6, "this"
 TEST(PeakResidentBytes, IsWhatAProcessCanHave) {
   EXPECT_GT(peakResidentBytes(), 100'000u);
   EXPECT_LT(peakResidentBytes(), 1'000'000'000'000u);
+}
+
+TEST(ResetPeakResident, ForgetsWhatIsNoLongerHeld) {
+  constexpr std::size_t kHeld = 64 << 20;
+  { const std::vector<char> held(kHeld, 1); }
+  const std::uint64_t before = peakResidentBytes();
+  if (!resetPeakResident()) GTEST_SKIP() << "this system does not offer it";
+  EXPECT_LT(peakResidentBytes() + kHeld / 2, before);
 }
 
 }  // namespace
