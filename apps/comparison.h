@@ -4,11 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "apps/example.h"
 #include "core/origin.h"
@@ -33,7 +30,7 @@ struct ComparedResult {
   DistanceField field;
   Origins origins;
   TriangleMesh mesh;
-  double seconds = 0;                              ///< of synthesis alone
+  double seconds = 0;                      ///< of synthesis alone
   std::optional<std::uint64_t> peakBytes;  ///< resident while it ran, surface included
   std::optional<std::int64_t> labels;      ///< Model, Overlap: kinds of blocks
   /// With the example cut into blocks that tile, and the result read in these: pairs of neighbors,
@@ -46,10 +43,5 @@ struct ComparedResult {
 /// Model's is rounded to whole blocks.
 ComparedResult runEngine(ComparedEngine engine, const Example& example, const Vec3d& scale,
                          std::uint64_t seed, const Progress& progress);
-
-/// A page that shows what a comparison found: one file that opens from disk, with the pictures
-/// inside. `comparison` is what `compare.json` holds; pictures are read from `folder`.
-std::string comparisonPage(const nlohmann::ordered_json& comparison,
-                           const std::filesystem::path& folder);
 
 }  // namespace exemplar
