@@ -7,22 +7,27 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "apps/command.h"
 #include "apps/json.h"
+#include "apps/report.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "measure/figures.h"
 #include "measure/mesh_result.h"
+#include "reconstruct/field_to_mesh.h"
+#include "reconstruct/reconstruct.h"
 #include "sdf/vdb_file.h"
 
 namespace exemplar {
 namespace {
 
 struct Options {
-  std::string example, result, origins, scale, json;
+  std::string example, result, origins, scale, json, report;
   ExampleOptions reading;
+  PictureOptions picture;
   CommonOptions common;
 };
 
@@ -61,10 +66,38 @@ Example loadResult(const Options& options, const Example& example, const Origins
   return result;
 }
 
+/// A page of the example, the result and their figures.
+void writeReport(const Options& options, const Example& example, const Example& result,
+                 const Origins* origins, const std::vector<Figure>& all,
+                 const RenderOptions& picture, Terminal& terminal) {
+  terminal.step("making the report");
+  const TriangleMesh whole = loadForPicture(options.example, options.reading, terminal.progress());
+  TriangleMesh mesh;
+  if (result.mesh) {
+    mesh = *result.mesh;
+  } else if (origins) {
+    mesh = reconstructSurface(result.field, *origins,
+                              {example.field, example.mesh ? &*example.mesh : nullptr},
+                              {.blend = 0}, terminal.progress())
+               .mesh;
+  } else {
+    mesh = fieldToMesh(result.field);
+  }
+  ResultReport report{options.report, options.example, example.description, whole, mesh};
+  report.exampleField = &example.field;
+  report.field = &result.field;
+  report.origins = origins;
+  writeResultReport(report, {{"figures", toJson(all)}}, picture, terminal.progress());
+  terminal.stopIfInterrupted();
+  if (!options.common.quiet && options.json != "-") terminal.say("report", options.report);
+}
+
 void measureFiles(const Options& options) {
   const ThreadLimit limit(options.common.threads);
   Terminal terminal(options.common.quiet);
   if (!options.json.empty() && options.json != "-") requireOutput(options.json, ".json");
+  if (!options.report.empty()) requireOutput(options.report, ".html");
+  const RenderOptions picture = renderOptions(options.picture);
   const Example example = loadExample(options.example, options.reading, terminal.progress());
   Origins origins;
   if (!options.origins.empty()) origins = readOriginsVdb(options.origins);
@@ -86,6 +119,9 @@ void measureFiles(const Options& options) {
     if (!options.common.quiet) std::printf("%s", figuresTable(all).c_str());
     if (!options.json.empty()) writeFile(options.json, toJson(all).dump(2) + "\n");
   }
+  if (!options.report.empty()) {
+    writeReport(options, example, result, input.origins, all, picture, terminal);
+  }
 }
 
 }  // namespace
@@ -105,7 +141,10 @@ CommandRun addMeasureCommand(CLI::App& app) {
                       "the size that a mesh was made with, as synth was told (guessed; origins "
                       "tell it too)");
   command->add_option("--json", options->json, "write the figures to this .json; - prints them");
+  command->add_option("--report", options->report,
+                      "write a page with surfaces that turn, figures and what shows (.html)");
   addExampleOptions(*command, options->reading);
+  addPictureOptions(*command, options->picture);
   addCommonOptions(*command, options->common);
   return [options] { measureFiles(*options); };
 }

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "apps/command.h"
 #include "apps/json.h"
 #include "core/file.h"
 #include "core/memory.h"
@@ -98,6 +99,29 @@ void writeResultReport(const ResultReport& report, Json run, const RenderOptions
   requireMemory(3.0 * static_cast<double>(page.bytes()), report.page.string(),
                 "leave --report out");
   writeFile(report.page, page.html(head));
+}
+
+void writeLabelReport(const std::filesystem::path& page, const LabelExample& example,
+                      const ExampleOptions& reading, const LabelGrid& grid, Json run,
+                      const RenderOptions& picture, const Progress& progress) {
+  const TriangleMesh whole = example.field || example.pieces
+                                 ? loadForPicture(example.path, reading, progress)
+                                 : labelsToMesh(example.grid, example);
+  const TriangleMesh mesh = labelsToMesh(grid, example);
+  ResultReport report{page, example.path, example.description, whole, mesh};
+  PlacedBlocks placed;
+  if (example.field) {
+    const Example& source = example.field->example;
+    placed = placeBlocks(source.field, example.field->blocks, grid.cells);
+    report.exampleField = &source.field;
+    report.field = &placed.field;
+    report.origins = &placed.origins;
+    MeasureInput input;
+    input.origins = &placed.origins;
+    input.mesh = &mesh;
+    run["figures"] = toJson(figures(measure(source.field, placed.field, input, {}, progress)));
+  }
+  writeResultReport(report, std::move(run), picture, progress);
 }
 
 }  // namespace exemplar

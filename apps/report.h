@@ -9,6 +9,7 @@
 #include <string>
 
 #include "apps/example.h"
+#include "apps/label_example.h"
 #include "core/origin.h"
 #include "core/progress.h"
 #include "mesh/triangle_mesh.h"
@@ -65,5 +66,12 @@ struct ResultReport {
 /// "seed", "figures", ...). Nothing is written where `progress` cancels.
 void writeResultReport(const ResultReport& report, nlohmann::ordered_json run,
                        const RenderOptions& picture, const Progress& progress);
+
+/// The same for a result of model synthesis. Labels that stand for blocks of a distance field have
+/// figures and marks; pieces and boxes are shown as they are. `run` as above.
+void writeLabelReport(const std::filesystem::path& page, const LabelExample& example,
+                      const ExampleOptions& reading, const LabelGrid& grid,
+                      nlohmann::ordered_json run, const RenderOptions& picture,
+                      const Progress& progress);
 
 }  // namespace exemplar

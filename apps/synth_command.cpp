@@ -6,15 +6,18 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "apps/command.h"
 #include "apps/json.h"
+#include "apps/report.h"
 #include "apps/synth_control.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/memory.h"
 #include "measure/collapse.h"
+#include "measure/figures.h"
 #include "measure/occupancy.h"
 #include "mesh/mesh_file.h"
 #include "reconstruct/copy_triangles.h"
@@ -31,7 +34,7 @@ enum class Method { Blocks, Optimize };
 enum class Surface { Contour, Copy };
 
 struct Options {
-  std::string example, output, scale, preview, stats, origins;
+  std::string example, output, scale, preview, stats, origins, report;
   std::string engine = "geometry";
   Method method = Method::Optimize;
   Surface surface = Surface::Contour;
@@ -137,6 +140,32 @@ Json toJson(const MeshHealth& health) {
           {"volume", health.signedVolume}};
 }
 
+/// A page of the example, the result and their figures.
+void writeReport(const Options& options, const Examples& examples, const SynthesisResult& result,
+                 const TriangleMesh& mesh, double seconds, const RenderOptions& picture,
+                 Terminal& terminal) {
+  const Example& example = examples.first();
+  terminal.step("measuring");
+  MeasureInput input;
+  input.origins = &result.origins;
+  input.mesh = &mesh;
+  Json run = {{"engine", options.method == Method::Blocks ? "blocks" : "optimize"},
+              {"seed", options.seed},
+              {"seconds", seconds}};
+  run["figures"] =
+      toJson(figures(measure(example.field, result.field, input, {}, terminal.progress())));
+  run["peak_memory_bytes"] = peakResidentBytes();
+  terminal.step("making the report");
+  const TriangleMesh whole = loadForPicture(options.example, options.reading, terminal.progress());
+  ResultReport report{options.report, options.example, example.description, whole, mesh};
+  report.exampleField = &example.field;
+  report.field = &result.field;
+  report.origins = &result.origins;
+  writeResultReport(report, std::move(run), picture, terminal.progress());
+  terminal.stopIfInterrupted();
+  terminal.say("report", options.report);
+}
+
 /// The main path, from file to file.
 void synth(const Options& options) {
   const Stopwatch total;
@@ -146,6 +175,7 @@ void synth(const Options& options) {
   if (!options.preview.empty()) requireOutput(options.preview, ".png");
   if (!options.stats.empty()) requireOutput(options.stats, ".json");
   if (!options.origins.empty()) requireOutput(options.origins, ".vdb");
+  if (!options.report.empty()) requireOutput(options.report, ".html");
   const RenderOptions picture = renderOptions(options.picture);
 
   Examples examples(loadExample(options.example, options.reading, terminal.progress()),
@@ -185,7 +215,7 @@ void synth(const Options& options) {
 
   const Stopwatch surface;
   const bool meshOut = isMeshFile(options.output);
-  if (meshOut || !options.preview.empty()) {
+  if (meshOut || !options.preview.empty() || !options.report.empty()) {
     const TriangleMesh mesh = reconstruct(options, examples, result, terminal);
     const MeshHealth health = meshHealth(mesh);
     stats["mesh"] = toJson(health);
@@ -200,6 +230,9 @@ void synth(const Options& options) {
     if (!options.preview.empty()) {
       writePng(options.preview, image);
       terminal.say("picture", options.preview);
+    }
+    if (!options.report.empty()) {
+      writeReport(options, examples, result, mesh, synthesisSeconds, picture, terminal);
     }
   }
   if (isHeightMapFile(options.output)) {
@@ -280,6 +313,8 @@ CommandRun addSynthCommand(CLI::App& app) {
   command->add_option("--stats", options->stats, "also write figures of the run (.json)");
   command->add_option("--origins", options->origins,
                       "also write where each sample of the result came from (.vdb)");
+  command->add_option("--report", options->report,
+                      "also write a page with surfaces that turn, figures and what shows (.html)");
   addControlOptions(*command, options->control);
   addExampleOptions(*command, options->reading);
   addPictureOptions(*command, options->picture);

@@ -125,11 +125,16 @@ void markSeams(const std::vector<std::size_t>& surface, const Array3D<float>& ju
     if (jump > cell.most) cell.most = jump, cell.sample = n;
   }
   std::vector<std::size_t> order;
-  for (std::size_t c = 0; c < cells.count(); ++c)
-    if (cells.values()[c].most > 0) order.push_back(c);
+  for (std::size_t c = 0; c < cells.count(); ++c) {
+    Cell& cell = cells.values()[c];
+    if (!(cell.most > 0)) continue;
+    cell.seen = eye.sees(jumps.ijk(cell.sample)).has_value();
+    order.push_back(c);
+  }
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const double x = cells.values()[a].sum, y = cells.values()[b].sum;
-    return x != y ? x > y : a < b;
+    const Cell &x = cells.values()[a], &y = cells.values()[b];
+    if (x.seen != y.seen) return x.seen;
+    return x.sum != y.sum ? x.sum > y.sum : a < b;
   });
   std::vector<Vec3i> taken;
   for (const std::size_t c : order) {

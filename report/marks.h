@@ -37,14 +37,15 @@ struct Mark {
 struct MarkOptions {
   int seams = 6;            ///< the most marks of this kind
   int repeats = 2;          ///< the most repeated parts
-  int places = 10;          ///< the most places of each of them
+  int places = 8;           ///< the most places of each of them
   int copies = 3;           ///< the most marks of this kind
   double leastJump = 1;     ///< voxels, from which a seam counts
   double leastRepeat = 2;   ///< times the average use, from which a part counts
   double leastCopy = 0.05;  ///< share of the example's surface, from which a copy counts
 };
 
-/// Finds what to look at in a result: by kind, the worst first. Only the surface counts: solid
+/// Finds what to look at in a result: by kind, the worst first; seams that the camera sees before
+/// those that it does not. Only the surface counts: solid
 /// samples with an empty one at a face.
 ///
 /// Seams: the surface is cut into cells of 6 samples a side; the cells with most jump, none beside

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/parallel.h"
 #include "mesh/color.h"
 #include "preview/normals.h"
@@ -18,6 +19,7 @@
 #include "reconstruct/origin_map.h"
 #include "report/encode.h"
 #include "report/simplify_soup.h"
+#include "report/subdivide.h"
 
 namespace exemplar {
 namespace {
@@ -25,6 +27,12 @@ namespace {
 constexpr std::size_t kGrain = 2048;
 /// A view may keep so many times the triangles that were asked for before it is simplified harder.
 constexpr double kTolerated = 1.25;
+/// The longest edge of a surface with few triangles, as a share of its box's diagonal.
+constexpr double kLongestEdge = 0.01;
+/// Light is gathered at corners drawn in so far towards their triangles' middles: corners stand in
+/// the ground or in each other.
+constexpr double kDrawnIn = 0.2;
+constexpr double kBytesPerTriangle = 900;  // of simplifying, and of looking up what was there
 
 /// How a point of a surface looks, as a view keeps it.
 struct Looks {
@@ -101,20 +109,48 @@ TriangleMesh bare(const TriangleMesh& mesh) {
   return shape;
 }
 
-/// The shape alone, of about as many triangles as were asked for; whether it is another one.
-std::pair<TriangleMesh, bool> simplified(const TriangleMesh& mesh, std::int64_t triangles) {
-  TriangleMesh shape = bare(mesh);
-  if (static_cast<std::int64_t>(shape.triangles.size()) <= triangles)
-    return {std::move(shape), false};
-  const Vec3d size = boundingBox(shape).size();
-  try {
-    decimate(shape, {.error = length(size), .triangles = triangles});
-  } catch (const InputError&) {
-    shape = bare(mesh);  // a soup
+/// What is drawn, and how it stands to the surface that it shows.
+struct Shape {
+  TriangleMesh mesh;
+  bool another = false;  ///< simplified; else its triangles are parts of the surface's:
+  std::vector<std::uint32_t> parents;
+  std::vector<std::array<std::array<double, 3>, 3>> weights;
+};
+
+/// The shape alone, of about as many triangles as were asked for. Where there are few, large ones
+/// are cut: light is kept at corners.
+Shape shapeOf(const TriangleMesh& mesh, std::int64_t triangles) {
+  Shape shape{bare(mesh)};
+  const double diagonal = length(boundingBox(mesh).size());
+  if (static_cast<std::int64_t>(mesh.triangles.size()) <= triangles) {
+    // Too many parts: coarser ones; in the end the surface as it is.
+    for (double longest = kLongestEdge * diagonal; longest < diagonal; longest *= 1.5) {
+      if (auto parts = subdivide(mesh, longest, triangles)) {
+        shape.mesh = std::move(parts->mesh);
+        shape.parents = std::move(parts->parents);
+        shape.weights = std::move(parts->weights);
+        return shape;
+      }
+    }
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      shape.parents.push_back(t);
+      shape.weights.push_back({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+    }
+    return shape;
   }
-  if (static_cast<double>(shape.triangles.size()) > kTolerated * static_cast<double>(triangles))
-    shape = simplifySoup(shape, triangles);
-  return {std::move(shape), true};
+  requireMemory(kBytesPerTriangle * static_cast<double>(mesh.triangles.size()),
+                "simplifying a surface for the report", "leave the report out");
+  shape.another = true;
+  try {
+    decimate(shape.mesh, {.error = diagonal, .triangles = triangles});
+  } catch (const InputError&) {
+    shape.mesh = bare(mesh);  // a soup
+  }
+  if (static_cast<double>(shape.mesh.triangles.size()) >
+      kTolerated * static_cast<double>(triangles)) {
+    shape.mesh = simplifySoup(mesh, triangles);
+  }
+  return shape;
 }
 
 Vec3d centroid(const TriangleMesh& mesh, std::size_t t) {
@@ -124,17 +160,14 @@ Vec3d centroid(const TriangleMesh& mesh, std::size_t t) {
 }
 
 /// The looks of every triangle's corners.
-std::vector<std::array<Looks, 3>> cornerLooks(const TriangleMesh& shape, const TriangleMesh& full,
-                                              bool another) {
+std::vector<std::array<Looks, 3>> cornerLooks(const Shape& drawn, const TriangleMesh& full) {
   const Palette palette(full);
+  const TriangleMesh& shape = drawn.mesh;
   std::vector<std::array<Looks, 3>> looks(shape.triangles.size());
-  if (!another) {
+  if (!drawn.another) {
     for (std::size_t t = 0; t < looks.size(); ++t)
-      for (std::size_t c = 0; c < 3; ++c) {
-        std::array<double, 3> corner{};
-        corner[c] = 1;
-        looks[t][c] = palette.at(t, corner);
-      }
+      for (std::size_t c = 0; c < 3; ++c)
+        looks[t][c] = palette.at(drawn.parents[t], drawn.weights[t][c]);
     return looks;
   }
   const ExampleSurface surface(full);
@@ -238,12 +271,14 @@ class Corners {
   /// The number of the corner at `vertex` that looks as `corner` does; a new one where there is
   /// none. `isNew` says which.
   std::uint32_t at(std::uint32_t vertex, const ViewVertex& corner, const Vec3f& normal,
-                   bool* isNew) {
+                   const Vec3d& drawnIn, bool* isNew) {
     std::uint32_t* link = &first_[vertex];
     for (; *link != kNone; link = &next_[*link]) {
       Vec3f& sum = normals[*link];
       if (!(looks_[*link] == corner) || dot(normalized(sum), normal) < kAlike) continue;
       sum += normal;
+      probes[*link].sum += drawnIn;
+      probes[*link].count += 1;
       *isNew = false;
       return *link;
     }
@@ -251,12 +286,18 @@ class Corners {
     *link = number;  // before the lists grow, and move
     looks_.push_back(corner);
     normals.push_back(normal);
+    probes.push_back({drawnIn, 1});
     next_.push_back(kNone);
     *isNew = true;
     return number;
   }
 
+  struct Sum {
+    Vec3d sum;
+    double count = 0;
+  };
   std::vector<Vec3f> normals;  ///< of each corner; the sum of those that it stands for
+  std::vector<Sum> probes;     ///< the places that light is gathered at
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
@@ -334,16 +375,18 @@ ViewMesh makeViewMesh(const ViewSource& source, const ViewOptions& options,
   validate(source.mesh, "view");
   const Sources sources(source);
   progress.report("simplifying the view", 0);
-  const auto [shape, another] = simplified(source.mesh, options.triangles);
+  const Shape drawn = shapeOf(source.mesh, options.triangles);
+  const TriangleMesh& shape = drawn.mesh;
   if (progress.cancelled()) return {};
-  const std::vector<std::array<Looks, 3>> looks = cornerLooks(shape, source.mesh, another);
+  const std::vector<std::array<Looks, 3>> looks = cornerLooks(drawn, source.mesh);
   const std::vector<std::array<Vec3f, 3>> normals =
       cornerNormals(shape, options.picture.creaseAngle);
   if (progress.cancelled()) return {};
 
   ViewMesh view;
   view.box = boundingBox(shape);
-  view.ofTriangles = static_cast<std::int64_t>(source.mesh.triangles.size());
+  view.ofTriangles = drawn.another ? static_cast<std::int64_t>(source.mesh.triangles.size())
+                                   : static_cast<std::int64_t>(shape.triangles.size());
   const Vec3d size = view.box.size();
   Corners corners(shape.positions.size());
   std::vector<LightProbe> probes;
@@ -365,15 +408,16 @@ ViewMesh makeViewMesh(const ViewSource& source, const ViewOptions& options,
       vertex.glow = looks[t][c].glow;
       vertex.source = sources.at(p, motion);
       bool isNew = false;
-      triangle[c] = corners.at(v, vertex, normals[t][c], &isNew);
+      triangle[c] = corners.at(v, vertex, normals[t][c],
+                               p * (1 - kDrawnIn) + centroid(shape, t) * kDrawnIn, &isNew);
       if (!isNew) continue;
       vertex.jump = sources.jumpAt(p);
       view.vertices.push_back(vertex);
-      probes.push_back({p, {}});
     }
   }
   for (std::size_t v = 0; v < view.vertices.size(); ++v) {
-    probes[v].normal = normalized(corners.normals[v]);
+    probes.push_back(
+        {corners.probes[v].sum * (1 / corners.probes[v].count), normalized(corners.normals[v])});
     const std::array<double, 2> normal = octahedral(cast<double>(probes[v].normal));
     for (std::size_t i = 0; i < 2; ++i)
       view.vertices[v].normal[i] = static_cast<std::int8_t>(std::lround(127 * normal[i]));

@@ -67,7 +67,7 @@ struct ViewMesh {
   ViewFloor floor;
   std::vector<ViewVertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::int64_t ofTriangles = 0;  ///< that the surface had before it was simplified
+  std::int64_t ofTriangles = 0;  ///< that the surface had before it was simplified, where it was
 };
 
 /// Makes a view of a surface: simplifies it (`decimate`; a soup by joining the vertices in the

@@ -1,13 +1,17 @@
 #!/usr/bin/env bash
 # Installs what exemplar is built from, from Debian's packages; does nothing when all is there.
+# install.sh [PACKAGE]...: further ones too.
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build ccache
   libtbb-dev libopenvdb-dev libboost-iostreams-dev libembree-dev libopenmesh-dev libtinygltf-dev libeigen3-dev libpng-dev libjpeg-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libcadical-dev
-  libgtest-dev libgmock-dev libbenchmark-dev libfftw3-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libfftw3-dev zlib1g-dev
+  "$@"
 )
+# What bundles the report's page; from wherever they come.
+command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
 missing=()
 for p in "${packages[@]}"; do
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$p" 2>/dev/null || true)" = installed ] || missing+=("$p")

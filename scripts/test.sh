@@ -3,6 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+scripts/install.sh chromium # the report's page is tested in it
 scripts/build.sh
 echo "== running all tests"
 ctest --preset release -j "$(nproc)"

@@ -57,7 +57,7 @@ function deviationOf(values) {
 
 /// What figures are called, in what unit, and where the best value is. Others keep their key.
 const kFigures = {
-  'likeness.lp_dense': { label: 'Likeness', best: 1, from: 0, to: 1 },
+  'likeness.lp_dense': { label: 'Likeness (LP-dense)', best: 1, from: 0, to: 1 },
   'likeness.coverage': { label: 'Coverage', best: 1, from: 0, to: 1 },
   'likeness.lp_dense_interior': { label: 'Likeness, inside', best: 1, from: 0, to: 1 },
   'likeness.coverage_interior': { label: 'Coverage, inside', best: 1, from: 0, to: 1 },
@@ -66,8 +66,8 @@ const kFigures = {
   'likeness.lp_published': { label: 'LP as published', best: 1, from: 0, to: 1 },
   'likeness.fpd': { label: 'Patch distance', unit: 'voxels²' },
   'likeness.fpd_floor': { label: 'Patch distance, floor', unit: 'voxels²' },
-  'likeness.occupancy_ratio': { label: 'Solid share', unit: '× example', best: 1 },
-  'likeness.surface_ratio': { label: 'Surface density', unit: '× example', best: 1 },
+  'likeness.occupancy_ratio': { label: 'Solid share', unit: '× example', best: 1, from: 0.9, to: 1.1 },
+  'likeness.surface_ratio': { label: 'Surface density', unit: '× example', best: 1, from: 0.9, to: 1.1 },
   'likeness.pieces_per_million_cells': { label: 'Whole pieces', unit: 'per million cells' },
   'likeness.pieces_per_million_cells_example': { label: 'Whole pieces, example', unit: 'per million cells' },
   'likeness.pieces_depth': { label: 'Depth of pieces', unit: 'voxels' },
@@ -75,7 +75,7 @@ const kFigures = {
   'likeness.windows': { label: 'Windows drawn' },
   'novelty.distance_to_example': { label: 'Distance to example', from: 0, to: 1 },
   'novelty.distance_to_shifted_example': { label: 'Distance to shifted example', from: 0, to: 1 },
-  'novelty.verbatim_run': { label: 'Copied regions', unit: '× example', from: 0 },
+  'novelty.verbatim_run': { label: 'Copied regions', unit: '× example', from: 0, to: 1 },
   'novelty.use': { label: 'Evenness of use', best: 1, from: 0, to: 1 },
   'novelty.used_share': { label: 'Example used', best: 1, from: 0, to: 1 },
   'seams.seam_jump': { label: 'Seam jump', unit: 'voxels', best: 0, from: 0 },
@@ -92,24 +92,37 @@ const kMain = [
   'novelty.used_share', 'novelty.verbatim_run', 'seams.seam_jump_near_surface', 'seams.seam_share',
 ];
 
+/// What is known of engines by the first word of their name; settings may follow after a colon.
 const kEngines = {
-  blocks: { name: 'blocks', says: 'geometry synthesis by best-matching blocks', mark: 'square' },
-  optimize: { name: 'optimize', says: 'geometry synthesis by patch optimisation', mark: 'circle' },
-  model: { name: 'model', says: 'model synthesis by adjacency', mark: 'triangle' },
+  blocks: { says: 'geometry synthesis by best-matching blocks', color: 0, mark: 'square' },
+  optimize: { says: 'geometry synthesis by patch optimisation', color: 1, mark: 'circle' },
+  model: { says: 'model synthesis by adjacency', color: 2, mark: 'triangle' },
+  overlap: { says: 'model synthesis on overlapping blocks', color: 3, mark: 'diamond' },
 };
-function engineIndex(engine) {
-  const n = Object.keys(kEngines).indexOf(engine);
-  return n < 0 ? 3 : n;
+const kColors = 8;
+const styles = new Map();
+/// Gives each engine of a report a colour and a shape, its own where it has one.
+function styleEngines(engines) {
+  const free = [...Array(kColors).keys()].filter((c) => !engines.some((e) => kEngines[e] && kEngines[e].color === c));
+  for (const engine of engines) {
+    const about = kEngines[engine.split(':')[0]] || { mark: 'circle', says: '' };
+    const color = kEngines[engine] ? about.color : free.length ? free.shift() : styles.size % kColors;
+    styles.set(engine, { ...about, color });
+  }
 }
-const engineSays = (engine) => (kEngines[engine] ? kEngines[engine].says : '');
+const styleOf = (engine) => styles.get(engine) || { color: 1, mark: 'circle', says: '' };
+const engineIndex = (engine) => styleOf(engine).color;
+const engineSays = (engine) => styleOf(engine).says;
 
 /// The sign of an engine about (x, y): colour and shape both tell it.
 function sign(engine, x, y, r, attributes = {}) {
-  const shape = kEngines[engine] ? kEngines[engine].mark : 'circle';
   const attrs = { class: `engine-${engineIndex(engine)}`, ...attributes };
-  if (shape === 'square') return h('rect', { x: x - r * 0.9, y: y - r * 0.9, width: 1.8 * r, height: 1.8 * r, ...attrs });
-  if (shape === 'triangle') return h('polygon', { points: `${x},${y - 1.15 * r} ${x + 1.1 * r},${y + 0.85 * r} ${x - 1.1 * r},${y + 0.85 * r}`, ...attrs });
-  return h('circle', { cx: x, cy: y, r, ...attrs });
+  switch (styleOf(engine).mark) {
+    case 'square': return h('rect', { x: x - r * 0.9, y: y - r * 0.9, width: 1.8 * r, height: 1.8 * r, ...attrs });
+    case 'triangle': return h('polygon', { points: `${x},${y - 1.15 * r} ${x + 1.1 * r},${y + 0.85 * r} ${x - 1.1 * r},${y + 0.85 * r}`, ...attrs });
+    case 'diamond': return h('polygon', { points: `${x},${y - 1.25 * r} ${x + 1.1 * r},${y} ${x},${y + 1.25 * r} ${x - 1.1 * r},${y}`, ...attrs });
+    default: return h('circle', { cx: x, cy: y, r, ...attrs });
+  }
 }
 function signIcon(engine) {
   return h('svg', { class: 'sign', viewBox: '0 0 14 14', width: 14, height: 14, 'aria-hidden': 'true' }, sign(engine, 7, 7, 5));

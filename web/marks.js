@@ -43,8 +43,8 @@ function markedPicture(source, alt, marks, shown) {
       }
       const bx = mark.kind === 'seam' ? x + 2.6 * unit : x, by = mark.kind === 'seam' ? y - 2.6 * unit : y;
       group.append(
-        h('circle', { cx: bx, cy: by, r: 1.75 * unit, class: 'badge' }),
-        h('text', { x: bx, y: by + 0.72 * unit, 'font-size': 2 * unit, 'text-anchor': 'middle' }, mark.name));
+        h('circle', { cx: bx, cy: by, r: 1.5 * unit, class: 'badge' }),
+        h('text', { x: bx, y: by + 0.62 * unit, 'font-size': 1.7 * unit, 'text-anchor': 'middle' }, mark.name));
       svg.append(group);
     }
     const old = figure.querySelector('svg');

@@ -7,6 +7,7 @@ class Page {
     this.sources = new Map([...document.querySelectorAll('[data-view]')].map((e) => [e.dataset.view, e]));
     this.parts = new Map();
     this.engines = [...new Set(report.runs.map((run) => run.engine))];
+    styleEngines(this.engines);
     this.seeds = [...new Set(report.runs.map((run) => run.seed))];
     this.seed = this.seeds[0];
   }
@@ -205,8 +206,8 @@ function tableRows(page, figures, every) {
   const runs = page.report.runs, complete = (engine) => runs.filter((r) => r.engine === engine && r.status === 'complete');
   if (every) {
     const ids = figures.map((f) => f.id);
-    return [['engine', 'seed', 'status', 'seconds', 'peak_memory_bytes', 'adjacency_violations', ...ids],
-      ...runs.map((run) => [run.engine, run.seed, run.status, run.seconds ?? '', peakOf(run) ?? '', run.adjacency_violations ?? '',
+    return [['engine', 'seed', 'status', 'seconds', 'peak_memory_bytes', 'adjacency_pairs', 'adjacency_violations', 'unknown_blocks', ...ids],
+      ...runs.map((run) => [run.engine, run.seed, run.status, run.seconds ?? '', peakOf(run) ?? '', run.adjacency_pairs ?? '', run.adjacency_violations ?? '', run.unknown_blocks ?? '',
         ...figures.map((f) => valueOf(run, f) ?? '')].map(String))];
   }
   const mean = (values) => {
@@ -223,7 +224,9 @@ function tableRows(page, figures, every) {
     row('complete', (e) => `${complete(e).length} of ${runs.filter((r) => r.engine === e).length}`),
     row('seconds', (e) => mean(complete(e).map((r) => r.seconds))),
     row('peak_memory_bytes', (e) => mean(complete(e).map(peakOf))),
+    row('adjacency_pairs', (e) => mean(complete(e).map((r) => r.adjacency_pairs))),
     row('adjacency_violations', (e) => mean(complete(e).map((r) => r.adjacency_violations))),
+    row('unknown_blocks', (e) => mean(complete(e).map((r) => r.unknown_blocks))),
     ...figures.map((f) => row(f.id, (e) => mean(complete(e).map((r) => valueOf(r, f)))))];
 }
 

@@ -15,7 +15,7 @@ function plot(figure, engines, valuesOf, shownSeed) {
   const about = kFigures[figure.id] || {};
   const rows = engines.map((engine) => ({ engine, values: valuesOf(engine, figure) }));
   const all = rows.flatMap((row) => row.values.map((v) => v.value));
-  const width = 300, left = 70, right = 14, top = 8, line = 22;
+  const width = 300, left = Math.min(130, 22 + 6.2 * Math.max(...engines.map((e) => e.length))), right = 14, top = 8, line = 22;
   const height = top + line * rows.length + 22;
   let low = Math.min(...all, about.from ?? Infinity, about.best ?? Infinity);
   let high = Math.max(...all, about.to ?? -Infinity, about.best ?? -Infinity);
@@ -40,7 +40,7 @@ function plot(figure, engines, valuesOf, shownSeed) {
   }
   rows.forEach((row, r) => {
     const y = top + line * (r + 0.5);
-    svg.append(h('text', { x: 0, y: y + 4, class: 'name' }, row.engine));
+    svg.append(h('text', { x: 0, y: y + 4, class: 'name' }, row.engine.length > 18 ? `${row.engine.slice(0, 17)}…` : row.engine));
     if (!row.values.length) {
       svg.append(h('text', { x: left, y: y + 4, class: 'tick' }, kDash));
       return;
@@ -68,7 +68,8 @@ function outcomes(engines, runs) {
     const complete = own.filter((run) => run.status === 'complete');
     const took = own.map((run) => run.seconds).filter((s) => typeof s === 'number');
     const peaks = own.map(peakOf).filter((b) => typeof b === 'number');
-    const violations = complete.map((run) => run.adjacency_violations).filter((v) => typeof v === 'number');
+    const violations = complete.filter((run) => typeof run.adjacency_violations === 'number');
+    const unknown = violations.map((run) => run.unknown_blocks).filter((v) => typeof v === 'number');
     const range = (values, write) => {
       if (!values.length) return kDash;
       const low = write(Math.min(...values)), high = write(Math.max(...values));
@@ -86,7 +87,10 @@ function outcomes(engines, runs) {
         why ? h('small', {}, `${why.status}: ${why.why || ''}`) : null),
       h('td', { 'data-label': 'time' }, range(took, seconds)),
       h('td', { 'data-label': 'memory' }, range(peaks, bytes)),
-      h('td', { 'data-label': 'violations' }, violations.length ? range(violations, number) : 'not computed'));
+      h('td', { 'data-label': 'violations' }, violations.length
+        ? [range(violations.map((run) => run.adjacency_violations), grouped), violations[0].adjacency_pairs ? ` of ${grouped(violations[0].adjacency_pairs)} pairs` : '',
+          unknown.length && Math.max(...unknown) > 0 ? h('small', {}, `and ${range(unknown, grouped)} blocks like none of the example’s`) : null]
+        : 'not computed'));
   };
   return h('table', { class: 'outcomes' },
     h('thead', {}, h('tr', {}, h('th', {}, 'engine'), h('th', {}, 'complete'), h('th', {}, 'time'),

@@ -11,7 +11,7 @@ class Board {
     this.mode = 'material';
     this.sameScale = true;
     this.together = true;
-    this.jumpScale = 4;
+    this.jumpScale = 2;
     const { azimuth, elevation } = page.report.camera;
     this.home = { azimuth, elevation, zoom: 1, panX: 0, panY: 0 };
     this.look = this.home;
@@ -209,10 +209,10 @@ function legend(board) {
   const { page } = board;
   if (board.mode === 'origins') {
     const kCells = 9;
-    const plan = h('svg', { viewBox: '0 0 90 90', class: 'plan', role: 'img', 'aria-label': 'colours of the ground plan' });
+    const plan = h('svg', { viewBox: '0 0 90 90', class: 'plan', 'shape-rendering': 'crispEdges', role: 'img', 'aria-label': 'colours of the ground plan' });
     for (let y = 0; y < kCells; ++y) {
       for (let x = 0; x < kCells; ++x) {
-        plan.append(h('rect', { x: 10 * x, y: 80 - 10 * y, width: 10.2, height: 10.2, fill: sourceColor([x / 8, y / 8, 0.5]) }));
+        plan.append(h('rect', { x: 10 * x, y: 80 - 10 * y, width: 10, height: 10, fill: sourceColor([x / 8, y / 8, 0.5]) }));
       }
     }
     const rise = h('span', { class: 'ramp upright', style: `background: linear-gradient(to top, ${[0, 0.5, 1].map((z) => sourceColor([0.5, 0.5, z])).join(', ')})` });
