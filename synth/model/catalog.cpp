@@ -79,27 +79,38 @@ bool Catalog::propagateAll() {
     return false;
   }
   all_ = true;
-  lastSet_.assign(words_, 0);
+  remembered_.assign(kRemembered * rememberedWords(), 0);
   const bool sound = propagate();
   all_ = false;
+  remembered_ = {};
   return sound;
 }
 
-void Catalog::rememberSupport(const LabelWord* set) {
-  lastSet_.assign(set, set + words_);
-  lastSupport_.assign(static_cast<std::size_t>(words_) * network_->slots, 0);
-  forEachLabel(lastSet_, [&](int b) {
+const LabelWord* Catalog::rememberedSupport(const LabelWord* set) {
+  LabelWord hash = 0;
+  for (int w = 0; w < words_; ++w) {
+    hash = (hash ^ set[w]) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 32;
+  }
+  LabelWord* known = remembered_.data() + hash % kRemembered * rememberedWords();
+  LabelWord* support = known + words_;
+  // The empty set, which no cell holds here, stands for a place that is not taken.
+  if (std::equal(set, set + words_, known)) return support;
+  std::copy(set, set + words_, known);
+  std::fill_n(support, static_cast<std::size_t>(words_) * network_->slots, 0);
+  forEachLabel({set, static_cast<std::size_t>(words_)}, [&](int b) {
     for (int s = 0; s < network_->slots; ++s) {
       const LabelWord* row = tables_[s] + static_cast<std::size_t>(b) * words_;
-      for (int w = 0; w < words_; ++w) lastSupport_[s * words_ + w] |= row[w];
+      for (int w = 0; w < words_; ++w) support[s * words_ + w] |= row[w];
     }
   });
+  return support;
 }
 
-bool Catalog::supportsAll(int cell, int slot) const {
+bool Catalog::holdsOnly(int cell, const LabelWord* set) const {
   const auto there = domain(cell);
   for (int w = 0; w < words_; ++w) {
-    if ((there[w] & ~lastSupport_[slot * words_ + w]) != 0) return false;
+    if ((there[w] & ~set[w]) != 0) return false;
   }
   return true;
 }
@@ -215,9 +226,9 @@ bool Catalog::run() {
     LabelWord* mine = W > 0 ? fixed : set.data();
     for (int w = 0; w < words; ++w) mine[w] = source[w];
     const std::int32_t* near = network_->neighbor.data() + static_cast<std::size_t>(cell) * slots;
-    if (all_ && !std::equal(mine, mine + words, lastSet_.begin())) rememberSupport(mine);
+    const LabelWord* supported = all_ ? rememberedSupport(mine) : nullptr;
     for (int s = 0; s < slots; ++s) {
-      if (s == skip || (all_ && supportsAll(near[s], s))) continue;
+      if (s == skip || (all_ && holdsOnly(near[s], supported + s * words))) continue;
       if (!update<W>(near[s], cell, mine, tables_[s], s)) return false;
     }
     for (const LabelNetwork::Link& l : network_->linksOf(cell)) {

@@ -76,6 +76,7 @@ class Catalog {
 
  private:
   static constexpr std::uint8_t kNoSlot = 255, kIdle = 254;
+  static constexpr std::size_t kRemembered = 64;
 
   void push(int cell, std::uint8_t from);
   void save(int cell);
@@ -84,8 +85,12 @@ class Catalog {
   bool run();
   template <int W>
   bool update(int cell, int from, const LabelWord* set, const LabelWord* table, int slot);
-  void rememberSupport(const LabelWord* set);
-  bool supportsAll(int cell, int slot) const;
+  /// What a set supports along each slot, from the sets met before where it is one of these.
+  const LabelWord* rememberedSupport(const LabelWord* set);
+  std::size_t rememberedWords() const {
+    return static_cast<std::size_t>(words_) * (1 + static_cast<std::size_t>(network_->slots));
+  }
+  bool holdsOnly(int cell, const LabelWord* set) const;
 
   const LabelNetwork* network_;
   int words_;
@@ -95,8 +100,10 @@ class Catalog {
   std::vector<std::uint8_t> queuedFrom_;  // kIdle, or the slot towards the one cell it changed for
   std::vector<const LabelWord*> tables_;
   std::vector<LabelWord> supported_;  // scratch
-  bool all_ = false;                  // many cells hold the same: remember what that supports
-  std::vector<LabelWord> lastSet_, lastSupport_;
+  // While all cells are propagated many hold the same few sets: by hash, a set and what it
+  // supports.
+  bool all_ = false;
+  std::vector<LabelWord> remembered_;
 
   struct Saved {
     std::int32_t cell;

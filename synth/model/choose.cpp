@@ -10,8 +10,8 @@ namespace exemplar {
 namespace {
 
 constexpr std::uint32_t kLabelStream = 0x4C424C31;  // the choice of labels
-/// How much a place counts that the examples show with one of the three neighbors another.
-constexpr double kLess = 0.01;
+/// How much a label counts that the examples show beside each of the neighbors, but not beside all.
+constexpr double kUnseen = 0.01;
 constexpr std::uint64_t kAnyLabel = 0xFFFF;
 
 /// One of `labels` with chances in proportion to `weight(label)`, for `uniform` in [0, 1).
@@ -108,9 +108,9 @@ void LabelChooser::countPlaces(std::span<const LabelGrid> examples) {
 }
 
 /// Multiplies the weight of each label by how often it stands where its neighbors at -x, -y and -z
-/// are those in place; where the examples do not show that, where two of the three are; where they
-/// do not show that either, by frequency and each neighbor by itself. Neighbors on the other sides,
-/// further away, and in other frames always count by themselves.
+/// are those in place; where the examples do not show that, by its frequency and each of these
+/// neighbors by itself, P(b) times P(a | b). Neighbors on the other sides, further away, and in
+/// other frames always count by themselves.
 void LabelChooser::weighByNeighbors(int cell, std::span<const LabelWord> labels,
                                     const Placed& placed, std::vector<double>& weights) const {
   const LabelNetwork& network = problem_->network();
@@ -144,22 +144,15 @@ void LabelChooser::weighByNeighbors(int cell, std::span<const LabelWord> labels,
     forEachLabel(labels, [&](int b) { weights[b] *= single[b]; });
     return;
   }
-  forEachLabel(labels, [&](int b) { single[b] *= kLess * kLess; });
-  for (int which = 0; which < 8; ++which) {
-    if ((which & ~known) != 0 || places_[which].empty()) continue;
-    std::uint64_t labelsBefore = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      labelsBefore |= (which >> axis & 1 ? before[axis] : kAnyLabel) << (16 * (axis + 1));
-    }
-    const double factor = which == known ? 1 : kLess;
-    auto place = std::lower_bound(places_[which].begin(), places_[which].end(), labelsBefore,
-                                  [](const Place& p, std::uint64_t key) { return p.labels < key; });
-    for (;
-         place != places_[which].end() && (place->labels & ~std::uint64_t{0xFFFF}) == labelsBefore;
-         ++place) {
-      const int b = static_cast<int>(place->labels & 0xFFFF);
-      if (containsLabel(labels, b)) single[b] += factor * place->count;
-    }
+  forEachLabel(labels, [&](int b) { single[b] *= kUnseen; });
+  std::uint64_t labelsBefore = 0;
+  for (int axis = 0; axis < 3; ++axis) labelsBefore |= before[axis] << (16 * (axis + 1));
+  const auto& places = places_[known];
+  auto place = std::lower_bound(places.begin(), places.end(), labelsBefore,
+                                [](const Place& p, std::uint64_t key) { return p.labels < key; });
+  for (; place != places.end() && (place->labels & ~kAnyLabel) == labelsBefore; ++place) {
+    const int b = static_cast<int>(place->labels & kAnyLabel);
+    if (containsLabel(labels, b)) single[b] += place->count;
   }
   forEachLabel(labels, [&](int b) { weights[b] *= single[b]; });
 }

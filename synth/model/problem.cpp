@@ -117,6 +117,7 @@ void ModelProblem::checkOptions() const {
   }
   if (o.rounds < 1 || o.rounds > 100) throw InputError("rounds must be 1 to 100");
   if (o.budget < 1) throw InputError("the budget must be at least 1");
+  if (o.patience < 0) throw InputError("the patience must be at least 0");
 
   for (const PairRule& r : a.rules) {
     if (!r.pairs.empty()) continue;

@@ -3,7 +3,11 @@
 
 #include "synth/model/synthesize.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
+#include <atomic>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -42,6 +46,58 @@ void checkExamples(std::span<const LabelGrid> examples, const Adjacency& adjacen
   }
 }
 
+/// Takes from `base` what has no support (statement 3.6); false where a cell loses all of its
+/// labels. The sets that remain do not depend on the order of work, so pieces of the network come
+/// first, in parallel, and then what these have to tell each other.
+bool makeArcConsistent(const LabelNetwork& network, LabelSets& base) {
+  constexpr int kPiece = 8192;  // cells
+  const int pieces = (network.cells + kPiece - 1) / kPiece;
+  const auto copyBack = [&](const Catalog& catalog, int first) {
+    for (int c = 0; c < catalog.network().cells; ++c) {
+      std::copy(catalog.domain(c).begin(), catalog.domain(c).end(), base[first + c].begin());
+    }
+  };
+  std::atomic<bool> possible{true};
+  if (pieces > 1) {
+    tbb::enumerable_thread_specific<NetworkPart> parts([&] { return NetworkPart(network); });
+    parallelFor(0, static_cast<std::size_t>(pieces), 1, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::int32_t> cells;
+      for (std::size_t piece = begin; piece < end && possible; ++piece) {
+        const int first = static_cast<int>(piece) * kPiece;
+        cells.resize(std::min(kPiece, network.cells - first));
+        std::iota(cells.begin(), cells.end(), first);
+        NetworkPart& part = parts.local();
+        part.select(cells);
+        Catalog catalog(part.network());
+        for (std::size_t c = 0; c < cells.size(); ++c) {
+          catalog.setDomain(static_cast<int>(c), base[cells[c]]);
+        }
+        if (catalog.propagateAll()) {
+          copyBack(catalog, first);
+        } else {
+          possible = false;
+        }
+      }
+    });
+  }
+  if (!possible) return false;
+  Catalog catalog(network);
+  for (int c = 0; c < network.cells; ++c) catalog.setDomain(c, base[c]);
+  if (pieces == 1) {
+    if (!catalog.propagateAll()) return false;
+  } else {
+    for (int c = 0; c < network.cells; ++c) {
+      bool between = false;
+      network.forEachNeighbor(c,
+                              [&](int n, int) { between = between || n / kPiece != c / kPiece; });
+      if (between) catalog.touch(c);
+    }
+    if (!catalog.propagate()) return false;
+  }
+  copyBack(catalog, 0);
+  return true;
+}
+
 /// The grids that a labelling of the network stands for.
 std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& example,
                                const std::vector<Label>& labels) {
@@ -70,14 +126,13 @@ Labelling label(const ModelProblem& problem, const LabelSets& base, const LabelC
   // Metropolis needs something to compare with.
   const ModelMethod method =
       problem.options().metropolis ? ModelMethod::Blocks : problem.options().method;
-  // Where blocks are an alternative the whole is not worked on for minutes.
-  constexpr int kPatience = 8;
   const auto whole = [&](std::optional<int> patience) {
     return labelWhole(problem, base, chooser, statistics, progress, patience);
   };
   if (method == ModelMethod::Whole) return whole(std::nullopt);
   if (method == ModelMethod::Auto) {
-    Labelling soon = whole(kPatience);
+    // Where blocks are an alternative the whole is not worked on for minutes.
+    Labelling soon = whole(problem.options().patience);
     if (soon.status != ModelStatus::Unfinished) return soon;
   }
   std::optional<std::vector<Label>> start =
@@ -105,15 +160,7 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
   result.statistics.cells = problem.positions();
 
   LabelSets base = problem.domains(problem.demands());
-  bool possible;
-  {
-    Catalog catalog(network);
-    for (int c = 0; c < network.cells; ++c) catalog.setDomain(c, base[c]);
-    possible = catalog.propagateAll();
-    for (int c = 0; c < network.cells && possible; ++c) {
-      std::copy(catalog.domain(c).begin(), catalog.domain(c).end(), base[c].begin());
-    }
-  }
+  const bool possible = makeArcConsistent(network, base);
   Labelling labelling{ModelStatus::Impossible, {}};
   const LabelChooser chooser(problem, examples);
   if (possible) labelling = label(problem, base, chooser, result.statistics, progress);

@@ -83,6 +83,8 @@ struct ModelOptions {
   ModelMethod method = ModelMethod::Auto;
   LabelChoice choice = LabelChoice::Neighbors;
 
+  /// Auto: so many large regions in a row may come to nothing before blocks take over, >= 0.
+  int patience = 8;
   Vec3i block{10, 10, 10};  ///< cells; each component >= 2; blocks overlap by half
   int rounds = 1;           ///< over all blocks, 1..100
 

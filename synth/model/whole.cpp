@@ -24,6 +24,14 @@ constexpr int kEverywhere = 1 << 20;
 constexpr std::int64_t kMostLabelsAtOnce = 4'000'000;
 /// How far around it cells that are not labelled yet are looked at too.
 constexpr int kMargin = 3;
+/// Conflicts that the exact solver may meet in a region before a larger one, which is freer, is
+/// tried: regions that are solved at all mostly are within a few thousand.
+constexpr std::int64_t kRegionConflicts = 5000;
+/// A search remembers for each cell which decisions mattered: for more cells than this the exact
+/// solver, which learns from conflicts, is sooner done.
+constexpr std::size_t kMostSearched = 12000;
+/// So many repairs near each other in a row before the next one begins with a larger region.
+constexpr int kRepairsInPlace = 3;
 
 class WholePass {
  public:
@@ -57,13 +65,14 @@ class WholePass {
   ModelStatistics& statistics_;
   const Progress& progress_;
   std::optional<int> patience_;
+  int large_ = 0;  // large regions in a row that came to nothing
   Catalog catalog_;
   std::uint32_t draws_;
 
   std::unique_ptr<NetworkPart> part_;
   std::vector<std::int32_t> region_;  // cells looked at, ascending
   std::vector<std::int32_t> inner_;   // of these, the ones to label, as numbers of the part
-  int lastRepaired_ = -1, lastReach_ = 0;
+  int lastRepaired_ = -1, lastReach_ = 0, again_ = 0;
 };
 
 void WholePass::selectRegion(int cell, int reach) {
@@ -177,7 +186,8 @@ ModelStatus WholePass::repairWithin(int cell, int reach) {
     if (c >= 0) return local.decided(c) ? local.firstLabel(c) : -1;
     return catalog_.decided(far) ? catalog_.firstLabel(far) : -1;
   };
-  for (int attempt = 0; attempt < 2; ++attempt) {
+  const int attempts = inner_.size() <= kMostSearched ? 2 : 0;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     draws_ += 64;
     const std::uint32_t first = draws_;
     const auto choose = [&](int c, std::span<const LabelWord> set, int draw) {
@@ -203,11 +213,9 @@ ModelStatus WholePass::repairWithin(int cell, int reach) {
   for (int c = 0; c < count; ++c) {
     exact.prefer(c, region_[c] < cell ? catalog_.firstLabel(region_[c]) : mostFrequent(domains[c]));
   }
-  // A region that is hard is left for a larger one, which is freer, long before the budget is
-  // spent.
   const std::int64_t budget = problem_.options().budget;
   const auto outcome =
-      exact.solve({}, everything ? budget : std::min<std::int64_t>(budget, 1000), progress_);
+      exact.solve({}, everything ? budget : std::min(budget, kRegionConflicts), progress_);
   if (outcome == ExactSolver::Outcome::Solved) {
     for (int c = 0; c < count; ++c) labels[c] = static_cast<Label>(exact.label(c));
     if (adopt(labels, cell)) return ModelStatus::Complete;
@@ -217,24 +225,29 @@ ModelStatus WholePass::repairWithin(int cell, int reach) {
 }
 
 ModelStatus WholePass::repair(int cell) {
-  // A cell near the last one repaired was not helped by a region of that size.
+  // Where the last repairs were near, too, regions of that size do not help.
   std::size_t first = 0;
   const Vec3i here = problem_.cellAt(problem_.positionOf(cell));
   if (lastRepaired_ >= 0) {
     const Vec3i there = problem_.cellAt(problem_.positionOf(lastRepaired_));
     const Vec3i d = here - there;
-    if (std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= kReach[lastReach_]) {
+    const bool near = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= kReach[lastReach_];
+    again_ = near ? again_ + 1 : 0;
+    if (again_ >= kRepairsInPlace) {
       first = std::min<std::size_t>(lastReach_ + 1, kReach.size() - 2);
+      again_ = 0;
     }
   }
   for (std::size_t r = first; r < kReach.size(); ++r) {
     ++statistics_.repairs;
     const ModelStatus status = repairWithin(cell, kReach[r]);
     if (progress_.cancelled()) return ModelStatus::Cancelled;
-    if (status == ModelStatus::Unfinished && kReach[r] >= kLarge && patience_ && --*patience_ < 0) {
+    if (status == ModelStatus::Unfinished && kReach[r] >= kLarge && patience_ &&
+        ++large_ > *patience_) {
       return status;
     }
     if (status != ModelStatus::Unfinished) {
+      large_ = 0;
       lastRepaired_ = cell;
       lastReach_ = static_cast<int>(r);
       return status;

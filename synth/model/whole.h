@@ -23,7 +23,7 @@ struct Labelling {
 /// loses all its labels so is repaired: a region around it is taken back and labelled anew, by
 /// search and then exactly, and grows until that succeeds.
 ///
-/// With `patience`, ends Unfinished after so many large regions that came to nothing.
+/// With `patience`, ends Unfinished after so many large regions in a row that came to nothing.
 /// Ends with Impossible where the region has grown to everything and the exact solver proves that
 /// nothing fits; with Unfinished where it could not tell.
 Labelling labelWhole(const ModelProblem& problem, const LabelSets& base,

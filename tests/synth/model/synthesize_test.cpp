@@ -179,6 +179,81 @@ TEST(SynthesizeModel, ProvesWhatFigure35SaysPropagationMisses) {
   EXPECT_EQ(synthesizeModel(example, o).status, ModelStatus::Complete);
 }
 
+TEST(SynthesizeModel, TurnsToBlocksWhereTheWholeComesToNothing) {
+  // Without patience the first large region that is not labelled ends the pass over the whole.
+  const LabelGrid example = test::escheresque();
+  int inBlocks = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    ModelOptions o;
+    o.size = {30, 30, 10};
+    o.seed = seed;
+    o.choice = LabelChoice::Uniform;
+    o.patience = 0;
+    ModelResult one, eight;
+    tbb::task_arena(1).execute([&] { one = synthesizeModel(example, o); });
+    ASSERT_EQ(one.status, ModelStatus::Complete);
+    EXPECT_EQ(findViolations(one.grid(), example).count, 0);
+    if (one.statistics.whole) continue;
+    ++inBlocks;
+    EXPECT_GT(one.statistics.blocks, 0);
+    tbb::task_arena(8).execute([&] { eight = synthesizeModel(example, o); });
+    EXPECT_EQ(one.grid().cells, eight.grid().cells);
+    // With patience the same seed is labelled in one pass, and so not the same.
+    o.patience = 1000;
+    const ModelResult whole = synthesizeModel(example, o);
+    ASSERT_EQ(whole.status, ModelStatus::Complete);
+    EXPECT_TRUE(whole.statistics.whole);
+    EXPECT_NE(one.grid().cells, whole.grid().cells);
+  }
+  EXPECT_GT(inBlocks, 0);
+}
+
+TEST(SynthesizeModel, BlocksBeginWithTheWholeWhereNoTileRepeats) {
+  // Pins six cells apart are one cell of a tile of one, two or three cells, and want different
+  // labels.
+  const LabelGrid example = test::canyon();
+  ModelOptions o;
+  o.size = {20, 20, 10};
+  o.method = ModelMethod::Blocks;
+  const ModelResult free = synthesizeModel(example, o);
+  ASSERT_EQ(free.status, ModelStatus::Complete);
+  const Label here = free.grid().cells(7, 7, 5), there = free.grid().cells(13, 13, 5);
+  Label other = there;
+  for (const Label b : free.grid().cells.values()) {
+    if (other == here && b != here) other = b;
+  }
+  o.pins = {{{7, 7, 5}, {here}}, {{13, 13, 5}, {other}}};
+  ASSERT_NE(here, other);
+  const ModelResult r = synthesizeModel(example, o);
+  ASSERT_EQ(r.status, ModelStatus::Complete);
+  EXPECT_FALSE(r.statistics.whole);
+  EXPECT_GT(r.statistics.blocks, 0);
+  EXPECT_EQ(r.grid().cells(7, 7, 5), here);
+  EXPECT_EQ(r.grid().cells(13, 13, 5), other);
+  EXPECT_EQ(findViolations(r.grid(), example).count, 0);
+}
+
+TEST(SynthesizeModel, HearsOfDemandsFarAway) {
+  // A row of labels by turns: a pin decides every cell, across all pieces that propagation begins
+  // with, and a second one agrees or does not by the parity of their distance.
+  LabelGrid example;
+  example.cells = Array3D<Label>({4, 1, 1}, 0);
+  example.cells(1, 0, 0) = example.cells(3, 0, 0) = 1;
+  example.labels.resize(2);
+  ModelOptions o;
+  o.size = {30000, 1, 1};
+  for (SideRule& side : o.sides) side.kind = SideRule::Kind::Free;
+  o.pins = {{{2, 0, 0}, {1}}, {{29998, 0, 0}, {1}}};
+  const ModelResult even = synthesizeModel(example, o);
+  ASSERT_EQ(even.status, ModelStatus::Complete);
+  EXPECT_EQ(even.statistics.contradictions, 0);
+  for (int x = 0; x < 30000; ++x) ASSERT_EQ(even.grid().cells(x, 0, 0), 1 - x % 2);
+  o.pins[1].cell.x = 29999;
+  const ModelResult odd = synthesizeModel(example, o);
+  EXPECT_EQ(odd.status, ModelStatus::Impossible);
+  EXPECT_EQ(odd.conflict.pins, (std::vector<int>{0, 1}));
+}
+
 TEST(SynthesizeModel, ProvesThatThreeEndsDoNotPair) {
   // Thesis, figure 3.6: ends of paths come in pairs, and nothing near any of them says so.
   const LabelGrid example = test::figure36();
