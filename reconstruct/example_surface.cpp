@@ -15,12 +15,22 @@
 
 namespace exemplar {
 
+namespace {
+
+/// What a visit reads, side by side in memory.
+struct ExampleTriangle {
+  std::array<Vec3d, 3> corners;
+  Vec3d normal;
+};
+
+}  // namespace
+
 struct ExampleSurface::Data {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   Vec3d center{};  // Embree's floats are relative to it
-  std::vector<std::array<Vec3d, 3>> corners;
-  std::vector<Vec3d> normals;
+  std::vector<ExampleTriangle> triangles;
+  double meanSide = 0;  // of the triangles
 
   ~Data() {
     if (scene) rtcReleaseScene(scene);
@@ -62,13 +72,18 @@ std::array<double, 3> closestWeights(const Vec3d& p, const Vec3d& a, const Vec3d
   return {va / sum, vb / sum, vc / sum};
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// The circles that are looked at first: the radius of the first, in mean sides of triangles, by how
+// much each is wider than the one before, and how many.
+constexpr double kFirst = 0.2, kWider = 3;
+constexpr int kCircles = 4;
+
 /// What a running query knows; Embree hands it to `visit` with each triangle that is near enough.
 struct Search {
-  const std::vector<std::array<Vec3d, 3>>& corners;
-  const std::vector<Vec3d>& normals;
+  const std::vector<ExampleTriangle>& triangles;
   const Vec3d& point;
   const ClosestOptions& options;
-  double cost = std::numeric_limits<double>::infinity();
+  double cost = kInfinity;
   SurfacePoint best;
 };
 
@@ -81,13 +96,15 @@ bool visit(RTCPointQueryFunctionArguments* args) {
   const ClosestOptions& options = search.options;
   const std::uint32_t t = args->primID;
   if (!options.groups.empty() && options.groups[t] != options.group) return false;
-  const auto& [a, b, c] = search.corners[t];
+  const ExampleTriangle& triangle = search.triangles[t];
+  const double turned = options.facingCost * (1 - dot(triangle.normal, options.facing)) / 2;
+  if (turned > search.cost) return false;
+  const auto& [a, b, c] = triangle.corners;
   const auto weights = closestWeights(search.point, a, b, c);
   const Vec3d position = a * weights[0] + b * weights[1] + c * weights[2];
   const double distance = length(position - search.point);
   if (distance > options.radius) return false;
-  const double cost =
-      distance + options.facingCost * (1 - dot(search.normals[t], options.facing)) / 2;
+  const double cost = distance + turned;
   if (cost > search.cost || (cost == search.cost && t >= search.best.triangle)) return false;
   search.cost = cost;
   search.best = {t, weights, position, distance};
@@ -104,12 +121,15 @@ ExampleSurface::ExampleSurface(const TriangleMesh& mesh) : data_(std::make_uniqu
                 "looking up the example's surface", "use an example with fewer triangles");
   const Box3d box = boundingBox(mesh);
   data_->center = box.empty() ? Vec3d{} : box.center();
-  data_->corners.resize(mesh.triangles.size());
-  data_->normals.resize(mesh.triangles.size());
+  data_->triangles.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    data_->corners[t] = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
-    data_->normals[t] = normalized(areaNormal(mesh, t));
+    data_->triangles[t] = {{mesh.positions[a], mesh.positions[b], mesh.positions[c]},
+                           normalized(areaNormal(mesh, t))};
+  }
+
+  for (const ExampleTriangle& t : data_->triangles) {
+    data_->meanSide += length(t.corners[1] - t.corners[0]) / double(data_->triangles.size());
   }
 
   data_->device = rtcNewDevice(nullptr);
@@ -148,22 +168,30 @@ ExampleSurface& ExampleSurface::operator=(ExampleSurface&&) noexcept = default;
 
 std::optional<SurfacePoint> ExampleSurface::closest(const Vec3d& point,
                                                     const ClosestOptions& options) const {
-  Search search{data_->corners, data_->normals, point, options};
-  RTCPointQuery query;
-  query.x = static_cast<float>(point.x - data_->center.x);
-  query.y = static_cast<float>(point.y - data_->center.y);
-  query.z = static_cast<float>(point.z - data_->center.z);
-  query.time = 0;
-  query.radius = lookWithin(options.radius);
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(data_->scene, &query, &context, nullptr, &search);
-  if (search.cost == std::numeric_limits<double>::infinity()) return std::nullopt;
-  return search.best;
+  // Small circles first: they hold few triangles, and mostly the nearest one. What lies beyond a
+  // circle costs more than its radius.
+  double radius = kFirst * data_->meanSide;
+  for (int circle = 0;; ++circle, radius *= kWider) {
+    const bool last = circle == kCircles || !(radius < options.radius);
+    ClosestOptions within = options;
+    if (!last) within.radius = radius;
+    Search search{data_->triangles, point, within, kInfinity, {}};
+    RTCPointQuery query;
+    query.x = static_cast<float>(point.x - data_->center.x);
+    query.y = static_cast<float>(point.y - data_->center.y);
+    query.z = static_cast<float>(point.z - data_->center.z);
+    query.time = 0;
+    query.radius = lookWithin(within.radius);
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(data_->scene, &query, &context, nullptr, &search);
+    if (search.cost < radius || (last && search.cost < kInfinity)) return search.best;
+    if (last) return std::nullopt;
+  }
 }
 
 const Vec3d& ExampleSurface::normal(std::uint32_t triangle) const {
-  return data_->normals[triangle];
+  return data_->triangles[triangle].normal;
 }
 
 }  // namespace exemplar

@@ -64,20 +64,20 @@ std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const Material
       for (int c = 0; c < 3; ++c) {
         const Vec3d& corner = mesh.positions[mesh.triangles[t][c]];
         p[c] = corner + (middle - corner) * kInside;
-        material[c] = materialAt(p[c], normal);
+        material[c] = materialAt(p[c], normal, t);
       }
       if (material[0] == material[1] && material[1] == material[2]) {
         mesh.triangleMaterials[t] = material[0];
         continue;
       }
-      mesh.triangleMaterials[t] = materialAt(middle, normal);
+      mesh.triangleMaterials[t] = materialAt(middle, normal, t);
       for (int c = 0; c < 3; ++c) {
         const int d = (c + 1) % 3;
         if (material[c] == material[d]) continue;
         double low = 0, high = 1;
         for (int halving = 0; halving < kHalvings; ++halving) {
           const double s = (low + high) / 2;
-          (materialAt(p[c] + (p[d] - p[c]) * s, normal) == material[c] ? low : high) = s;
+          (materialAt(p[c] + (p[d] - p[c]) * s, normal, t) == material[c] ? low : high) = s;
         }
         cuts[3 * t + c] = static_cast<float>((low + high) / 2);
       }
@@ -120,7 +120,8 @@ std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const Material
   parallelFor(0, pieces.size(), 64, [&](std::size_t n0, std::size_t n1) {
     for (std::size_t n = n0; n < n1; ++n) {
       const std::uint32_t t = pieces[n];
-      mesh.triangleMaterials[t] = materialAt(middleOf(mesh, t), normalized(areaNormal(mesh, t)));
+      mesh.triangleMaterials[t] =
+          materialAt(middleOf(mesh, t), normalized(areaNormal(mesh, t)), parent[t]);
     }
   });
   return parent;

@@ -12,8 +12,10 @@
 
 namespace exemplar {
 
-/// The material at a point of a surface that has this unit normal there. Called from many threads.
-using MaterialAt = std::function<std::uint32_t(const Vec3d& point, const Vec3d& normal)>;
+/// The material at a point of a surface that has this unit normal there, on triangle number
+/// `triangle` of the surface before it is cut. Called from many threads.
+using MaterialAt =
+    std::function<std::uint32_t(const Vec3d& point, const Vec3d& normal, std::uint32_t triangle)>;
 
 /// Cuts triangles where the material changes inside them, so that borders between materials run
 /// where they are and not along the nearest triangle sides. `mesh` comes with a material for each

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/parallel.h"
+#include "reconstruct/dilate.h"
 
 namespace exemplar {
 namespace {
@@ -18,6 +20,24 @@ constexpr double kFacingCost = 1;
 constexpr double kCostScale = 0.35;
 /// Matches this many voxels worse than the best have no weight to speak of.
 constexpr double kWorse = 1;
+/// The samples that have one of another motion at most `reach` samples away along each axis.
+Array3D<std::uint8_t> nearOtherMotions(const Origins& origins, int reach) {
+  const Vec3i n = origins.size();
+  Array3D<std::uint8_t> marks(n);
+  parallelFor(0, n.z, 1, [&](std::size_t k0, std::size_t k1) {
+    for (int k = static_cast<int>(k0); k < static_cast<int>(k1); ++k) {
+      for (int j = 0; j < n.y; ++j) {
+        for (int i = 0; i < n.x; ++i) {
+          const OriginMotion own = motionAt(origins, {i, j, k});
+          marks(i, j, k) = (i + 1 < n.x && !(motionAt(origins, {i + 1, j, k}) == own)) ||
+                           (j + 1 < n.y && !(motionAt(origins, {i, j + 1, k}) == own)) ||
+                           (k + 1 < n.z && !(motionAt(origins, {i, j, k + 1}) == own));
+        }
+      }
+    }
+  });
+  return dilated(std::move(marks), reach);
+}
 
 }  // namespace
 
@@ -45,6 +65,8 @@ OriginPullView::OriginPullView(const DistanceField& field, const Origins& origin
   checkOrigins(field, origins, examples);
   surfaces_.reserve(examples.size());
   for (const ExampleView& example : examples) surfaces_.emplace_back(example.mesh);
+  // A mark lies at the lower end of its step: one sample more to be seen from the upper end.
+  mixed_ = nearOtherMotions(origins, static_cast<int>(std::ceil(reach_)) + 1);
 }
 
 std::optional<Match> OriginPullView::nearest(const OriginMotion& motion, const Vec3d& index,
@@ -53,21 +75,22 @@ std::optional<Match> OriginPullView::nearest(const OriginMotion& motion, const V
                                              std::uint32_t group) const {
   const DistanceField& exampleField = examples_[motion.example].field;
   const double voxel = exampleField.voxelSize;
+  const ExampleSurface& surface = surfaces_[motion.example];
+  const Vec3d point = exampleField.position(motion.toExample(index));
+  const Vec3d facing = motion.directionToExample(normal);
   const auto found =
-      surfaces_[motion.example].closest(exampleField.position(motion.toExample(index)),
-                                        {.radius = radius * voxel,
-                                         .facing = motion.directionToExample(normal),
-                                         .facingCost = normal == Vec3d{} ? 0 : kFacingCost * voxel,
-                                         .groups = groups,
-                                         .group = group});
+      surface.closest(point, {.radius = radius * voxel,
+                              .facing = facing,
+                              .facingCost = normal == Vec3d{} ? 0 : kFacingCost * voxel,
+                              .groups = groups,
+                              .group = group});
   if (!found) return std::nullopt;
   Match match;
   match.motion = motion;
   match.point = *found;
   match.cost = found->distance / voxel;
   if (!(normal == Vec3d{})) {
-    const Vec3d& there = surfaces_[motion.example].normal(found->triangle);
-    match.cost += kFacingCost * (1 - dot(there, motion.directionToExample(normal))) / 2;
+    match.cost += kFacingCost * (1 - dot(surface.normal(found->triangle), facing)) / 2;
   }
   return match;
 }
@@ -75,12 +98,12 @@ std::optional<Match> OriginPullView::nearest(const OriginMotion& motion, const V
 std::optional<Match> OriginPullView::matchUnder(const OriginMotion& motion, const Vec3d& position,
                                                 const Vec3d& normal,
                                                 std::span<const std::uint32_t> groups,
-                                                std::uint32_t group) const {
-  return nearest(motion, field_.index(position), normal, std::numeric_limits<double>::infinity(),
-                 groups, group);
+                                                std::uint32_t group, double radius) const {
+  return nearest(motion, field_.index(position), normal, radius, groups, group);
 }
 
-void OriginPullView::match(const Vec3d& position, const Vec3d& normal, Matches& out) const {
+void OriginPullView::match(const Vec3d& position, const Vec3d& normal, Matches& out,
+                           double radius) const {
   const Vec3d at = field_.index(position);
   Vec3d center;
   Vec3i low, high;
@@ -88,6 +111,16 @@ void OriginPullView::match(const Vec3d& position, const Vec3d& normal, Matches& 
     center[a] = std::clamp(at[a], 0.0, origins_.size()[a] - 1.0);
     low[a] = std::max(0, static_cast<int>(std::ceil(center[a] - reach_)));
     high[a] = std::min(origins_.size()[a] - 1, static_cast<int>(std::floor(center[a] + reach_)));
+  }
+  const Vec3i middle{static_cast<int>(center.x), static_cast<int>(center.y),
+                     static_cast<int>(center.z)};
+  if (!mixed_[middle]) {
+    const auto match = nearest(motionAt(origins_, middle), at, normal, radius, {}, 0);
+    out.count = 0;
+    if (!match) return;
+    out.match[out.count] = *match;
+    out.match[out.count++].weight = 1;
+    return;
   }
   // The samples' motions with the sum of their tent weights, in order of appearance.
   std::array<std::pair<OriginMotion, double>, 64> votes;
@@ -116,7 +149,7 @@ void OriginPullView::match(const Vec3d& position, const Vec3d& normal, Matches& 
   out.count = 0;
   double best = std::numeric_limits<double>::infinity();
   for (int n = 0; n < std::min(voteCount, Matches::kMost); ++n) {
-    const auto match = nearest(votes[n].first, at, normal, best + kWorse, {}, 0);
+    const auto match = nearest(votes[n].first, at, normal, std::min(best + kWorse, radius), {}, 0);
     if (!match) continue;
     best = std::min(best, match->cost);
     out.match[out.count] = *match;

@@ -5,9 +5,12 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/array3d.h"
 #include "core/origin.h"
 #include "mesh/triangle_mesh.h"
 #include "reconstruct/example_surface.h"
@@ -44,18 +47,23 @@ void checkOrigins(const DistanceField& field, const Origins& origins,
 /// arguments.
 class OriginPullView {
  public:
+  static constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+
   /// `blend`: within how many voxels samples have a say.
   OriginPullView(const DistanceField& field, const Origins& origins,
                  std::span<const ExampleView> examples, double blend);
 
-  /// Where `position` (world) of the result, with unit normal `normal` or zero, may have come from.
-  void match(const Vec3d& position, const Vec3d& normal, Matches& out) const;
+  /// Where `position` (world) of the result, with unit normal `normal` or zero, may have come from;
+  /// places farther than `radius` voxels from the example's surface do not count.
+  void match(const Vec3d& position, const Vec3d& normal, Matches& out,
+             double radius = kAnywhere) const;
 
   /// The nearest point of an example's surface under a given motion, with its cost in voxels;
-  /// `groups` as in `ClosestOptions`. Nothing where the group has no triangle.
+  /// `groups` as in `ClosestOptions`. Nothing where the group has no triangle within `radius`
+  /// voxels.
   std::optional<Match> matchUnder(const OriginMotion& motion, const Vec3d& position,
                                   const Vec3d& normal, std::span<const std::uint32_t> groups = {},
-                                  std::uint32_t group = 0) const;
+                                  std::uint32_t group = 0, double radius = kAnywhere) const;
 
  private:
   std::optional<Match> nearest(const OriginMotion& motion, const Vec3d& index, const Vec3d& normal,
@@ -67,6 +75,7 @@ class OriginPullView {
   std::span<const ExampleView> examples_;
   double reach_;
   std::vector<ExampleSurface> surfaces_;
+  Array3D<std::uint8_t> mixed_;  ///< where several motions may be within reach
 };
 
 }  // namespace exemplar

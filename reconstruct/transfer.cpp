@@ -3,18 +3,23 @@
 
 #include "reconstruct/transfer.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
 #include "reconstruct/material_borders.h"
+#include "reconstruct/material_pieces.h"
 #include "reconstruct/pull.h"
 #include "reconstruct/texture_charts.h"
 
@@ -22,6 +27,24 @@ namespace exemplar {
 namespace {
 
 constexpr std::size_t kGrain = 256;
+
+// Materials by pieces; lengths in voxels.
+constexpr double kFarthest = 0.75;  // what its source's surface does not come nearer has no source
+constexpr double kFarthestOfCut = 0.25;  // the same where the box cuts solid: inside, all is far
+constexpr double kKeep = 2.2;  // weight of a piece's own material, over the regions' width
+constexpr double kNarrowest = 10, kWidest = 60;  // of the regions that are reckoned with
+constexpr double kTrust = 0.1;  // that there is no border, where no source has a say
+
+std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
+  a = findRoot(parent, a);
+  b = findRoot(parent, b);
+  parent[std::max(a, b)] = std::min(a, b);
+}
 
 /// All examples' triangles as one mesh, so that each attribute has one list: triangle t of example
 /// e is `first[e]` + t.
@@ -76,7 +99,7 @@ Plan makePlan(const TriangleMesh& example, TextureTransfer textures) {
 struct TriangleSources {
   std::vector<OriginMotion> motion;
   std::vector<std::uint32_t> triangle;  // of the joined example
-  std::vector<float> cost;              // voxels
+  std::vector<float> cost;              // voxels; infinity: no match, and no triangle
 };
 
 /// The heaviest match; by material, the heaviest of those of the material with most weight.
@@ -105,8 +128,23 @@ Vec3d middleOf(const TriangleMesh& mesh, std::size_t t) {
   return (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
 }
 
-TriangleSources matchTriangles(const TriangleMesh& result, const OriginPullView& pull,
-                               const Attributes& attributes, bool byMaterial) {
+/// Whether the triangle closes the surface where the field's box cuts solid.
+bool isCut(const TriangleMesh& mesh, std::size_t t, const DistanceField& field) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double face : {-0.5, field.size()[axis] - 0.5}) {
+      const auto inFace = [&](std::uint32_t v) {
+        return std::abs(field.index(mesh.positions[v])[axis] - face) < 1e-6;
+      };
+      if (std::ranges::all_of(mesh.triangles[t], inFace)) return true;
+    }
+  }
+  return false;
+}
+
+/// `anywhere`: matches from however far; else only what is near enough to be a source.
+TriangleSources matchTriangles(const TriangleMesh& result, const DistanceField& field,
+                               const OriginPullView& pull, const Attributes& attributes,
+                               bool byMaterial, bool anywhere) {
   const std::size_t count = result.triangles.size();
   TriangleSources sources;
   sources.motion.resize(count);
@@ -115,8 +153,15 @@ TriangleSources matchTriangles(const TriangleMesh& result, const OriginPullView&
   parallelFor(0, count, kGrain, [&](std::size_t t0, std::size_t t1) {
     Matches matches;
     for (std::size_t t = t0; t < t1; ++t) {
-      pull.match(middleOf(result, t), normalized(areaNormal(result, t)), matches);
+      const double limit = anywhere                  ? OriginPullView::kAnywhere
+                           : isCut(result, t, field) ? kFarthestOfCut
+                                                     : kFarthest;
+      pull.match(middleOf(result, t), normalized(areaNormal(result, t)), matches, limit);
+      sources.triangle[t] = kNone;
+      sources.cost[t] = std::numeric_limits<float>::infinity();
+      if (matches.count == 0) continue;
       const Match& chosen = chooseMatch(matches, attributes, byMaterial);
+      if (chosen.cost > limit) continue;
       sources.motion[t] = chosen.motion;
       sources.triangle[t] = attributes.triangle(chosen);
       sources.cost[t] = static_cast<float>(chosen.cost);
@@ -125,11 +170,194 @@ TriangleSources matchTriangles(const TriangleMesh& result, const OriginPullView&
   return sources;
 }
 
+/// How wide, in voxels, what has one material is on the example: the square root of the area of a
+/// connected region of one material, the middle one if regions count as much as they cover.
+double regionWidth(const TriangleMesh& example, double voxelSize) {
+  // Triangles may come with corners of their own: those in one place are joined.
+  std::vector<std::uint32_t> order(example.positions.size()), place(order.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto& at = example.positions;
+  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::tie(at[a].x, at[a].y, at[a].z, a) < std::tie(at[b].x, at[b].y, at[b].z, b);
+  });
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    const bool same = n > 0 && at[order[n]] == at[order[n - 1]];
+    place[order[n]] = same ? place[order[n - 1]] : order[n];
+  }
+  Triangles joined = example.triangles;
+  for (auto& corners : joined) {
+    for (std::uint32_t& v : corners) v = place[v];
+  }
+  const std::vector<std::uint32_t> mates = mateHalfedges(joined, place.size());
+  std::vector<std::uint32_t> region(joined.size());
+  std::iota(region.begin(), region.end(), 0u);
+  for (std::uint32_t h = 0; h < mates.size(); ++h) {
+    if (mates[h] == kNone || mates[h] < h) continue;
+    const std::uint32_t t = h / 3, u = mates[h] / 3;
+    if (example.triangleMaterials[t] == example.triangleMaterials[u]) join(region, t, u);
+  }
+  std::vector<double> areas(joined.size(), 0);
+  double total = 0;
+  for (std::uint32_t t = 0; t < joined.size(); ++t) {
+    const double area = length(areaNormal(example, t)) / 2;
+    areas[findRoot(region, t)] += area;
+    total += area;
+  }
+  std::sort(areas.begin(), areas.end());
+  double covered = 0;
+  for (const double area : areas) {
+    covered += area;
+    if (covered >= total / 2) return std::sqrt(area) / voxelSize;
+  }
+  return 1;
+}
+
+/// Materials by pieces: what was copied in one motion and has one material keeps together, and
+/// where pieces meet, the material changes only where at least one side has such a border itself.
+/// Triangles that have no source (where a box cuts solid) take what is beside them.
+///
+/// `sources` come from matches within `kFarthest`; `own` is each triangle's material as copied.
+std::vector<std::uint32_t> materialsByPieces(const TriangleMesh& result,
+                                             const std::vector<std::uint32_t>& mates,
+                                             const OriginPullView& pull,
+                                             const Attributes& attributes, double voxelSize,
+                                             double width, const TriangleSources& sources,
+                                             const std::vector<std::uint32_t>& own) {
+  const auto count = static_cast<std::uint32_t>(result.triangles.size());
+  const auto eachSide = [&](const auto& body) {  // between triangles that have a source
+    for (std::uint32_t h = 0; h < mates.size(); ++h) {
+      if (mates[h] == kNone || mates[h] < h) continue;
+      const std::uint32_t t = h / 3, u = mates[h] / 3;
+      if (own[t] != kNone && own[u] != kNone) body(h, t, u);
+    }
+  };
+  const auto sameMotion = [&](std::uint32_t t, std::uint32_t u) {
+    return sources.motion[t] == sources.motion[u];
+  };
+  std::vector<std::uint32_t> piece(count);
+  std::iota(piece.begin(), piece.end(), 0u);
+  std::vector<std::uint32_t> between;  // halfedges between pieces
+  eachSide([&](std::uint32_t, std::uint32_t t, std::uint32_t u) {
+    if (own[t] == own[u] && sameMotion(t, u)) join(piece, t, u);
+  });
+  eachSide([&](std::uint32_t h, std::uint32_t t, std::uint32_t u) {
+    if (findRoot(piece, t) != findRoot(piece, u)) between.push_back(h);
+  });
+  std::vector<MaterialPiece> pieces;
+  std::vector<std::uint32_t> number(count, kNone);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (own[t] == kNone) continue;
+    const std::uint32_t root = findRoot(piece, t);  // the lowest triangle: numbered first
+    if (root == t) {
+      number[t] = static_cast<std::uint32_t>(pieces.size());
+      pieces.push_back({own[t], 0});
+    }
+    number[t] = number[root];
+    // Giving half of a round region another material must pay where the border round it goes.
+    pieces[number[t]].weight += kKeep / std::clamp(width, kNarrowest, kWidest) *
+                                length(areaNormal(result, t)) / 2 / (voxelSize * voxelSize);
+  }
+  std::vector<MaterialJoint> joints(between.size());
+  parallelFor(0, between.size(), kGrain, [&](std::size_t n0, std::size_t n1) {
+    for (std::size_t n = n0; n < n1; ++n) {
+      const std::uint32_t h = between[n], t = h / 3, u = mates[h] / 3;
+      const double side = length(result.positions[toVertex(result.triangles, h)] -
+                                 result.positions[fromVertex(result.triangles, h)]) /
+                          voxelSize;
+      MaterialJoint& joint = joints[n] = {number[t], number[u], side, 0};
+      if (sameMotion(t, u)) continue;  // the example's own border
+      double smooth = kTrust, sum = kTrust;
+      const auto ask = [&](std::uint32_t from, std::uint32_t to) {
+        const auto match = pull.matchUnder(sources.motion[from], middleOf(result, to),
+                                           normalized(areaNormal(result, to)), {}, 0, kFarthest);
+        if (!match) return;  // no surface there: nothing to say
+        const double trust = std::exp(-match->cost * match->cost);
+        sum += trust;
+        const std::uint32_t there = attributes.triangle(*match);
+        if (attributes.mesh->triangleMaterials[there] == own[from]) smooth += trust;
+      };
+      ask(t, u);
+      ask(u, t);
+      joint.cost = side * smooth / sum;
+    }
+  });
+  const std::vector<std::uint32_t> settled = settleMaterials(pieces, joints);
+  std::vector<std::uint32_t> materials(count, kNone), front, next;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (number[t] == kNone) continue;
+    materials[t] = settled[number[t]];
+    front.push_back(t);
+  }
+  // Ring by ring into what has no source.
+  while (!front.empty()) {
+    next.clear();
+    for (const std::uint32_t t : front) {
+      for (int c = 0; c < 3; ++c) {
+        const std::uint32_t h = mates[3 * t + c];
+        if (h == kNone || materials[h / 3] != kNone) continue;
+        materials[h / 3] = materials[t];
+        next.push_back(h / 3);
+      }
+    }
+    front.swap(next);
+  }
+  return materials;
+}
+
+/// Materials for every triangle, kept together by pieces. `sources` come from matches within
+/// `kFarthest`.
+void transferPieces(TriangleMesh& result, const OriginPullView& pull, const Attributes& attributes,
+                    std::span<const ExampleView> examples, double voxelSize,
+                    const TransferOptions& options, const TriangleSources& sources) {
+  const TriangleMesh& example = *attributes.mesh;
+  const std::size_t count = result.triangles.size();
+  const std::vector<std::uint32_t> mates = mateHalfedges(result.triangles, result.positions.size());
+  std::vector<std::uint32_t> own(count, kNone);
+  for (std::size_t t = 0; t < count; ++t) {
+    if (sources.triangle[t] != kNone) own[t] = example.triangleMaterials[sources.triangle[t]];
+  }
+  result.triangleMaterials =
+      materialsByPieces(result, mates, pull, attributes, voxelSize,
+                        regionWidth(example, examples[0].field.voxelSize), sources, own);
+  // What lies far from every source: the nearest, however far.
+  parallelFor(0, count, kGrain, [&](std::size_t t0, std::size_t t1) {
+    Matches matches;
+    for (std::size_t t = t0; t < t1; ++t) {
+      if (result.triangleMaterials[t] != kNone) continue;
+      pull.match(middleOf(result, t), normalized(areaNormal(result, t)), matches);
+      const Match& chosen = chooseMatch(matches, attributes, true);
+      result.triangleMaterials[t] = example.triangleMaterials[attributes.triangle(chosen)];
+    }
+  });
+  if (options.cutBorders) {
+    // A border is where the triangle's own motion says so; the example's material there stands for
+    // what triangles around that came with it have now.
+    const VertexCorners corners = vertexCorners(result.triangles, result.positions.size());
+    const Triangles triangles = result.triangles;
+    const std::vector<std::uint32_t> settled = result.triangleMaterials;
+    cutMaterialBorders(result, [&](const Vec3d& point, const Vec3d& normal, std::uint32_t t) {
+      if (own[t] == kNone) return settled[t];
+      const auto match = pull.matchUnder(sources.motion[t], point, normal, {}, 0, kFarthest);
+      if (!match) return settled[t];
+      const std::uint32_t material = example.triangleMaterials[attributes.triangle(*match)];
+      if (material == own[t]) return settled[t];
+      for (const std::uint32_t v : triangles[t]) {
+        for (const std::uint32_t corner : corners.at(v)) {
+          const std::uint32_t u = corner / 3;
+          if (own[u] == material && sources.motion[u] == sources.motion[t]) return settled[u];
+        }
+      }
+      return settled[t];
+    });
+  }
+  cleanMaterialBorders(result, options.materialRounds);
+}
+
 /// Materials for every triangle, with borders where the example has them. `sources` follow: a piece
 /// of a cut triangle comes from where its triangle did, but from a triangle of its material.
 void transferMaterials(TriangleMesh& result, const OriginPullView& pull,
                        const Attributes& attributes, std::span<const ExampleView> examples,
-                       const TransferOptions& options, bool needSources, TriangleSources& sources) {
+                       const TransferOptions& options, TriangleSources& sources) {
   const TriangleMesh& example = *attributes.mesh;
   result.triangleMaterials.resize(result.triangles.size());
   for (std::size_t t = 0; t < result.triangles.size(); ++t) {
@@ -137,7 +365,8 @@ void transferMaterials(TriangleMesh& result, const OriginPullView& pull,
   }
   std::vector<std::uint32_t> parent;
   if (options.cutBorders) {
-    parent = cutMaterialBorders(result, [&](const Vec3d& point, const Vec3d& normal) {
+    parent = cutMaterialBorders(result, [&](const Vec3d& point, const Vec3d& normal,
+                                            std::uint32_t) {
       Matches matches;
       pull.match(point, normal, matches);
       return example.triangleMaterials[attributes.triangle(chooseMatch(matches, attributes, true))];
@@ -147,8 +376,6 @@ void transferMaterials(TriangleMesh& result, const OriginPullView& pull,
     std::iota(parent.begin(), parent.end(), 0u);
   }
   cleanMaterialBorders(result, options.materialRounds);
-  if (!needSources) return;
-
   const TriangleSources whole = sources;
   sources.motion.resize(parent.size());
   sources.triangle.resize(parent.size());
@@ -310,10 +537,12 @@ void transferAppearance(TriangleMesh& result, const DistanceField& field, const 
   const bool manyMaterials = plan.materials && !plan.oneMaterial;
   if (plan.coordinates || manyMaterials) {
     progress.report("taking materials from the example", 0);
-    sources = matchTriangles(result, pull, attributes, manyMaterials);
+    sources = matchTriangles(result, field, pull, attributes, manyMaterials, plan.coordinates);
   }
-  if (manyMaterials) {
-    transferMaterials(result, pull, attributes, examples, options, plan.coordinates, sources);
+  if (manyMaterials && plan.coordinates) {
+    transferMaterials(result, pull, attributes, examples, options, sources);
+  } else if (manyMaterials) {
+    transferPieces(result, pull, attributes, examples, field.voxelSize, options, sources);
   } else if (plan.materials) {
     result.triangleMaterials.assign(result.triangles.size(), example.triangleMaterials.front());
   }

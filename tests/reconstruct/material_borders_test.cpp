@@ -71,8 +71,9 @@ TEST(CutMaterialBorders, PutsBordersWhereTheyAre) {
   TriangleMesh mesh = paintedSphere(24, plane);
   const TriangleMesh before = mesh;
   const double zigzag = borderLength(mesh);
-  const auto parent = cutMaterialBorders(
-      mesh, [&](const Vec3d& p, const Vec3d&) { return std::uint32_t{plane(p) > 0}; });
+  const auto parent = cutMaterialBorders(mesh, [&](const Vec3d& p, const Vec3d&, std::uint32_t) {
+    return std::uint32_t{plane(p) > 0};
+  });
   const double offset = 0.05 / std::hypot(1, 0.4);
   const double circle = 2 * std::numbers::pi * std::sqrt(1 - offset * offset);
   EXPECT_GT(zigzag, 1.08 * circle);
@@ -107,7 +108,8 @@ TEST(CutMaterialBorders, LeavesBordersAlongCreasesAlone) {
     mesh.triangleMaterials.push_back(areaNormal(mesh, t).z > 0.5);
   }
   const TriangleMesh before = mesh;
-  cutMaterialBorders(mesh, [](const Vec3d&, const Vec3d& n) { return std::uint32_t{n.z > 0.5}; });
+  cutMaterialBorders(
+      mesh, [](const Vec3d&, const Vec3d& n, std::uint32_t) { return std::uint32_t{n.z > 0.5}; });
   EXPECT_EQ(mesh.positions, before.positions);
   EXPECT_EQ(mesh.triangleMaterials, before.triangleMaterials);
 }
@@ -116,13 +118,13 @@ TEST(CutMaterialBorders, AnyMaterialsLeaveTheSurfaceSound) {
   const Random random(3);
   TriangleMesh mesh = makeTorus({}, {0, 0, 1}, 2, 0.8, 40, 20);
   const double volume = meshHealth(mesh).signedVolume;
-  const auto noise = [&](const Vec3d& p, const Vec3d&) {
+  const auto noise = [&](const Vec3d& p, const Vec3d&, std::uint32_t) {
     return random.below(4, static_cast<std::uint64_t>((p.x + 10) * 1e5) * 1000003 +
                                static_cast<std::uint64_t>((p.y + 10) * 1e5));
   };
   mesh.materials.resize(4);
   for (const auto& t : mesh.triangles)
-    mesh.triangleMaterials.push_back(noise(mesh.positions[t[0]], {}));
+    mesh.triangleMaterials.push_back(noise(mesh.positions[t[0]], {}, 0));
   cutMaterialBorders(mesh, noise);
   expectSound(mesh);
   EXPECT_NEAR(meshHealth(mesh).signedVolume, volume, 1e-9);

@@ -169,6 +169,74 @@ TEST(TransferAppearance, MaterialsLieWhereTheyLieOnTheExample) {
   }
 }
 
+/// Two balls in an example, the second 30 voxels along x from the first, each of its own material.
+Sample twoBalls() {
+  TriangleMesh mesh = makeSphere({0, 0, 0}, 1, 16);
+  append(mesh, makeSphere({3, 0, 0}, 1, 16));
+  mesh.materials.resize(2);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    mesh.triangleMaterials.push_back(middle(mesh, t).x > 1.5);
+  }
+  Sample s{mesh, 50};
+  s.field = meshToSdf(mesh, {.voxelSize = 0.1, .padding = 3});
+  return s;
+}
+
+/// One ball of `twoBalls`, its samples from `border` on taken from the other one; cut off above
+/// `height` samples.
+std::pair<DistanceField, Origins> halfAndHalf(const Sample& s, int border, int height = 26) {
+  DistanceField field = s.field;
+  field.values = Array3D<float>({26, 26, height});
+  Origins origins(field.size());
+  for (std::size_t n = 0; n < origins.count(); ++n) {
+    const Vec3i c = origins.ijk(n);
+    const Vec3i from = c + Vec3i{c.x >= border ? 30 : 0, 0, 0};
+    origins.values()[n] = Origin(from);
+    field.values.values()[n] = s.field.values[from];
+  }
+  return {field, origins};
+}
+
+TEST(TransferAppearance, ABallFromTwoBallsHasOneMaterial) {
+  const Sample s = twoBalls();
+  for (const auto& [border, height] :
+       {std::pair{17, 26}, std::pair{9, 26}, std::pair{15, 12}, std::pair{13, 26}}) {
+    const auto [field, origins] = halfAndHalf(s, border, height);
+    TriangleMesh result = fieldToMesh(field);
+    transferAppearance(result, field, origins, s.example, s.field);
+    ASSERT_EQ(result.triangleMaterials.size(), result.triangles.size());
+    const std::uint32_t first = result.triangleMaterials.front();
+    // The larger part's, where one is clearly larger.
+    if (border != 13) {
+      EXPECT_EQ(first, border < 13) << border;
+    }
+    for (const std::uint32_t m : result.triangleMaterials) ASSERT_EQ(m, first) << border;
+  }
+}
+
+TEST(TransferAppearance, BallsThatTouchKeepTheirMaterials) {
+  // Two whole balls, their centres 19 voxels apart: one from each of the example's.
+  const Sample s = twoBalls();
+  DistanceField field = s.field;
+  field.values = Array3D<float>({45, 26, 26});
+  Origins origins(field.size());
+  for (std::size_t n = 0; n < origins.count(); ++n) {
+    const Vec3i c = origins.ijk(n);
+    const bool second = c.x >= 13 + 9.5;
+    const Vec3i from = c + Vec3i{second ? 30 - 19 : 0, 0, 0};
+    origins.values()[n] = Origin(from);
+    field.values.values()[n] = s.field.values[from];
+  }
+  TriangleMesh result = fieldToMesh(field);
+  transferAppearance(result, field, origins, s.example, s.field);
+  for (std::size_t t = 0; t < result.triangles.size(); ++t) {
+    const double x = field.index(middle(result, t)).x - (12.5 + 9.5);
+    if (std::abs(x) > 1) {
+      ASSERT_EQ(result.triangleMaterials[t], x > 0) << x;
+    }
+  }
+}
+
 TEST(TransferAppearance, OneMaterialForAllIsGivenToAll) {
   TriangleMesh ball = makeSphere({}, 1, 8);
   ball.materials.resize(3);
