@@ -3,9 +3,11 @@
 
 #include "mesh/mesh_health.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
 
 #include "core/parallel.h"
 #include "mesh/self_intersection.h"
@@ -34,18 +36,6 @@ class DisjointSets {
   std::vector<std::size_t> parent_;
 };
 
-/// A triangle's side, under the vertices that it joins. Corner c's side runs from corner c to the
-/// next one.
-struct Side {
-  std::uint32_t low, high;
-  std::uint64_t corner;  // 3 t + c
-
-  bool operator<(const Side& b) const {
-    return low != b.low ? low < b.low : high != b.high ? high < b.high : corner < b.corner;
-  }
-  bool isSameEdge(const Side& b) const { return low == b.low && high == b.high; }
-};
-
 bool hasEqualCorners(const std::array<std::uint32_t, 3>& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
@@ -63,57 +53,96 @@ bool isDegenerate(const TriangleMesh& mesh, std::size_t t) {
   return length(areaNormal(mesh, t)) <= kZeroArea * longest;
 }
 
-/// The sides of all triangles with three different corners, equal edges one behind the other.
-std::vector<Side> sortedSides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& triangle = mesh.triangles[t];
-    if (hasEqualCorners(triangle)) continue;
-    for (int c = 0; c < 3; ++c) {
-      const auto [low, high] = std::minmax(triangle[c], triangle[(c + 1) % 3]);
-      sides.push_back({low, high, 3 * t + c});
+/// The corners, 3 t + c, of triangles with three different ones at each vertex.
+struct CornersAtVertices {
+  std::vector<std::uint64_t> corners, begin;
+
+  explicit CornersAtVertices(const TriangleMesh& mesh) : begin(mesh.positions.size() + 2, 0) {
+    // One place too far at first: filling a vertex's list moves its end there.
+    for (const auto& t : mesh.triangles) {
+      if (hasEqualCorners(t)) continue;
+      for (const std::uint32_t v : t) ++begin[v + 2];
+    }
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    corners.resize(begin.back());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (hasEqualCorners(mesh.triangles[t])) continue;
+      for (int c = 0; c < 3; ++c) corners[begin[mesh.triangles[t][c] + 1]++] = 3 * t + c;
     }
   }
-  tbb::parallel_sort(sides.begin(), sides.end());
-  return sides;
-}
+};
+
+/// A triangle's side as one of its ends sees it.
+struct Side {
+  std::uint32_t other;   ///< the end that it leads to
+  bool leaves;           ///< the triangle runs from here to there
+  std::uint32_t corner;  ///< of this end, by its place in the vertex's list
+
+  bool operator<(const Side& b) const {
+    return other != b.other ? other < b.other : corner < b.corner;
+  }
+};
+
+/// What is wrong with edges and fans.
+struct Faults {
+  std::int64_t boundary = 0, nonManifold = 0, misoriented = 0, vertices = 0;
+
+  Faults& operator+=(const Faults& b) {
+    boundary += b.boundary;
+    nonManifold += b.nonManifold;
+    misoriented += b.misoriented;
+    vertices += b.vertices;
+    return *this;
+  }
+};
 
 void countEdgesAndFans(const TriangleMesh& mesh, MeshHealth& health) {
-  const std::vector<Side> sides = sortedSides(mesh);
-  const auto vertexAt = [&](std::uint64_t corner) {
-    return mesh.triangles[corner / 3][corner % 3];
+  const CornersAtVertices lists(mesh);
+  const auto count = [&](std::size_t v0, std::size_t v1) {
+    Faults faults;
+    std::vector<Side> sides;
+    std::vector<std::uint32_t> fan;
+    for (std::size_t v = v0; v < v1; ++v) {
+      const std::span<const std::uint64_t> corners(lists.corners.data() + lists.begin[v],
+                                                   lists.begin[v + 1] - lists.begin[v]);
+      sides.clear();
+      for (std::uint32_t n = 0; n < corners.size(); ++n) {
+        const auto& t = mesh.triangles[corners[n] / 3];
+        const auto c = static_cast<int>(corners[n] % 3);
+        sides.push_back({t[(c + 1) % 3], true, n});
+        sides.push_back({t[(c + 2) % 3], false, n});
+      }
+      std::sort(sides.begin(), sides.end());
+      // Corners belong to one fan where their triangles share a side at the vertex.
+      fan.resize(corners.size());
+      std::iota(fan.begin(), fan.end(), 0u);
+      const auto leader = [&](std::uint32_t n) {
+        while (fan[n] != n) n = fan[n] = fan[fan[n]];
+        return n;
+      };
+      auto fans = static_cast<std::int64_t>(corners.size());
+      for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+        for (end = begin + 1; end < sides.size() && sides[end].other == sides[begin].other; ++end) {
+          const std::uint32_t a = leader(sides[begin].corner), b = leader(sides[end].corner);
+          if (a == b) continue;
+          fan[std::max(a, b)] = std::min(a, b);
+          --fans;
+        }
+        if (sides[begin].other < v) continue;  // an edge counts at its lower end
+        const std::size_t triangles = end - begin;
+        faults.boundary += triangles == 1;
+        faults.nonManifold += triangles > 2;
+        faults.misoriented += triangles == 2 && sides[begin].leaves == sides[begin + 1].leaves;
+      }
+      faults.vertices += fans > 1;
+    }
+    return faults;
   };
-  const auto next = [](std::uint64_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
-  // Corners at a vertex belong to one fan where sides at that vertex are joined.
-  DisjointSets fans(3 * mesh.triangles.size());
-  for (std::size_t begin = 0; begin < sides.size();) {
-    std::size_t end = begin + 1;
-    while (end < sides.size() && sides[end].isSameEdge(sides[begin])) ++end;
-    const std::size_t count = end - begin;
-    if (count == 1) ++health.boundaryEdges;
-    if (count > 2) ++health.nonManifoldEdges;
-    const std::uint64_t first = sides[begin].corner;
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const std::uint64_t other = sides[i].corner;
-      const bool sameWay = vertexAt(first) == vertexAt(other);
-      if (count == 2 && sameWay) ++health.misorientedEdges;
-      fans.join(first, sameWay ? other : next(other));
-      fans.join(next(first), sameWay ? next(other) : other);
-    }
-    begin = end;
-  }
-  // Each fan has one corner that leads it; a vertex with two leaders has two fans.
-  std::vector<std::uint8_t> leaders(mesh.positions.size(), 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (hasEqualCorners(mesh.triangles[t])) continue;
-    for (std::uint64_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
-      if (fans.find(corner) != corner) continue;
-      std::uint8_t& seen = leaders[vertexAt(corner)];
-      if (seen == 1) ++health.nonManifoldVertices;
-      if (seen < 2) ++seen;
-    }
-  }
+  const Faults faults = parallelSum<Faults>(0, mesh.positions.size(), 4096, count);
+  health.boundaryEdges = faults.boundary;
+  health.nonManifoldEdges = faults.nonManifold;
+  health.misorientedEdges = faults.misoriented;
+  health.nonManifoldVertices = faults.vertices;
 }
 
 std::int64_t countComponents(const TriangleMesh& mesh) {
