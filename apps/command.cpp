@@ -8,9 +8,9 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 #include "apps/terminal.h"
+#include "apps/words.h"
 #include "core/error.h"
 #include "core/file.h"
 
@@ -86,26 +86,15 @@ RenderOptions renderOptions(const PictureOptions& options) {
 }
 
 Vec3d parseTriple(const std::string& text, const std::string& option) {
-  std::vector<double> numbers;
-  std::istringstream in(text);
-  for (std::string word; std::getline(in, word, ',');) {
-    std::size_t used = 0;
-    double value = 0;
-    try {
-      value = std::stod(word, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (used == 0 || used != word.size() || !(value > 0) || !std::isfinite(value)) {
-      throw InputError(option + " " + text + ": '" + word + "' is not a positive number");
-    }
-    numbers.push_back(value);
-  }
-  if (numbers.size() == 1) return {numbers[0], numbers[0], numbers[0]};
-  if (numbers.size() != 3 || text.back() == ',') {
-    throw InputError(option + " " + text + ": expected one number or three, as in 2,2,1");
-  }
-  return {numbers[0], numbers[1], numbers[2]};
+  const std::string what = option + " " + text;
+  const std::size_t count = split(text, ',').size();
+  if (count != 1 && count != 3)
+    throw InputError(what + ": expected one number or three, as in 2,2,1");
+  const std::vector<double> numbers = parseNumbers(text, count, what);
+  for (const double number : numbers)
+    if (!(number > 0)) throw InputError(what + ": expected numbers above 0");
+  return count == 1 ? Vec3d{numbers[0], numbers[0], numbers[0]}
+                    : Vec3d{numbers[0], numbers[1], numbers[2]};
 }
 
 Vec3i scaledSize(const Vec3i& size, const Vec3d& scale, const std::string& unit) {

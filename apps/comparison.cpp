@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "apps/command.h"
 #include "apps/terminal.h"
+#include "apps/words.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "reconstruct/reconstruct.h"
@@ -25,6 +27,31 @@ namespace {
 /// strictest that can go on with a terrain.
 constexpr FieldBlocksOptions kOverlapping{.tolerance = 1, .overlap = 2};
 constexpr double kBytesPerSample = 80;  // of the field, origins, search and surface
+
+/// In the order of `ComparedEngine`.
+struct Engine {
+  const char* name;
+  ComparedEngine engine;
+  const char* settings;
+};
+constexpr Engine kEngines[] = {
+    {"blocks", ComparedEngine::Blocks, "block levels truncation"},
+    {"optimize", ComparedEngine::Optimize, "patch levels rounds completeness truncation"},
+    {"model", ComparedEngine::Model, "block overlap tolerance truncation"},
+    {"overlap", ComparedEngine::Overlap, "block overlap tolerance truncation"}};
+
+/// Sets `value` where the setting is given.
+template <class Value>
+void take(const EngineSettings& settings, const std::string& key, Value& value) {
+  for (const auto& [name, number] : settings.values) {
+    if (name != key) continue;
+    if constexpr (std::is_same_v<Value, double>) {
+      value = number;
+    } else {
+      value = wholeNumber(number, key);
+    }
+  }
+}
 
 void takeGeometry(SynthesisResult made, ComparedResult& result) {
   result.status = made.status == SynthesisStatus::Complete ? "complete" : "cancelled";
@@ -91,21 +118,27 @@ void countViolations(const Example& example, const Progress& progress, ComparedR
 
 }  // namespace
 
-const char* engineName(ComparedEngine engine) {
-  switch (engine) {
-    case ComparedEngine::Blocks:
-      return "blocks";
-    case ComparedEngine::Optimize:
-      return "optimize";
-    case ComparedEngine::Model:
-      return "model";
-    case ComparedEngine::Overlap:
-      break;
+const char* engineName(ComparedEngine engine) { return kEngines[static_cast<int>(engine)].name; }
+
+EngineSettings parseEngine(const std::string& text) {
+  const std::vector<std::string> words = split(text, ':');
+  EngineSettings settings;
+  const auto* kind = std::ranges::find(kEngines, words[0], [](const Engine& e) { return e.name; });
+  if (kind == std::end(kEngines))
+    throw InputError("--engines " + words[0] + ": expected blocks, optimize, model or overlap");
+  settings.engine = kind->engine;
+  const std::vector<std::string> keys = split(kind->settings, ' ');
+  const std::string form = "KEY=NUMBER, KEY one of " + std::string(kind->settings);
+  for (std::size_t w = 1; w < words.size(); ++w) {
+    const auto [key, value] = keyAndValue(words[w], "--engines " + words[0] + ":", form);
+    if (std::ranges::find(keys, key) == keys.end())
+      throw InputError("--engines " + words[0] + ": " + key + ": expected " + form);
+    settings.values.emplace_back(key, parseNumber(value, "--engines " + text));
   }
-  return "overlap";
+  return settings;
 }
 
-ComparedResult runEngine(ComparedEngine engine, const Example& example, const Vec3d& scale,
+ComparedResult runEngine(const EngineSettings& settings, const Example& example, const Vec3d& scale,
                          std::uint64_t seed, const Progress& progress) {
   ComparedResult result;
   const Vec3i size = scaledSize(example.field.size(), scale, "samples");
@@ -114,21 +147,35 @@ ComparedResult runEngine(ComparedEngine engine, const Example& example, const Ve
   const bool peak = resetPeakResident();
   const Stopwatch stopwatch;
   try {
-    if (engine == ComparedEngine::Blocks) {
+    if (settings.engine == ComparedEngine::Blocks) {
       BlocksOptions options;
       options.size = size;
       options.seed = seed;
       options.block = example.block;
+      take(settings, "block", options.block);
+      take(settings, "levels", options.iterations);
+      take(settings, "truncation", options.truncation);
       takeGeometry(synthesizeBlocks(example.field, options, progress), result);
-    } else if (engine == ComparedEngine::Optimize) {
+    } else if (settings.engine == ComparedEngine::Optimize) {
       OptimizeOptions options;
       options.size = size;
       options.seed = seed;
+      take(settings, "patch", options.patch);
+      take(settings, "levels", options.levels);
+      take(settings, "rounds", options.rounds);
+      take(settings, "completeness", options.completeness);
+      take(settings, "truncation", options.truncation);
       takeGeometry(synthesizeOptimized(example.field, options, progress), result);
-    } else if (engine == ComparedEngine::Model) {
-      runModel(example, {}, scale, seed, progress, result);
     } else {
-      runModel(example, kOverlapping, scale, seed, progress, result);
+      FieldBlocksOptions cut =
+          settings.engine == ComparedEngine::Overlap ? kOverlapping : FieldBlocksOptions{};
+      int block = 0;
+      take(settings, "block", block);
+      cut.block = {block, block, block};
+      take(settings, "overlap", cut.overlap);
+      take(settings, "tolerance", cut.tolerance);
+      take(settings, "truncation", cut.truncation);
+      runModel(example, cut, scale, seed, progress, result);
     }
   } catch (const InputError& error) {
     // The comparison goes on: that an engine cannot take the example is a finding.

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/example.h"
 #include "core/origin.h"
@@ -23,6 +25,17 @@ enum class ComparedEngine {
 };
 const char* engineName(ComparedEngine engine);
 
+/// An engine and what of its settings is not as by default.
+struct EngineSettings {
+  ComparedEngine engine = ComparedEngine::Optimize;
+  std::vector<std::pair<std::string, double>> values;
+};
+
+/// Reads "optimize", or "optimize:patch=9:rounds=8". Throws `InputError` naming the engines, or the
+/// engine's settings: blocks has block, levels, truncation; optimize patch, levels, rounds,
+/// completeness, truncation; model and overlap block, overlap, tolerance, truncation.
+EngineSettings parseEngine(const std::string& text);
+
 /// What one engine made of the example with one seed.
 struct ComparedResult {
   std::string status;  ///< "complete", "impossible", "unfinished", "refused" or "cancelled"
@@ -39,9 +52,9 @@ struct ComparedResult {
   std::optional<double> unknownBlocks;
 };
 
-/// Runs one engine at its defaults. `scale`: the result's size as a multiple of the example's;
+/// Runs one engine. `scale`: the result's size as a multiple of the example's;
 /// Model's is rounded to whole blocks.
-ComparedResult runEngine(ComparedEngine engine, const Example& example, const Vec3d& scale,
+ComparedResult runEngine(const EngineSettings& settings, const Example& example, const Vec3d& scale,
                          std::uint64_t seed, const Progress& progress);
 
 }  // namespace exemplar

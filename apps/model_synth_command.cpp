@@ -8,12 +8,12 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <sstream>
 
 #include "apps/command.h"
 #include "apps/json.h"
 #include "apps/label_example.h"
 #include "apps/terminal.h"
+#include "apps/words.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/memory.h"
@@ -49,46 +49,6 @@ Vec3i resultSize(const Options& options, const LabelExample& example) {
   if (!options.size.empty()) return parseCells(options.size, "--size");
   const Vec3d scale = options.scale.empty() ? example.scale : parseTriple(options.scale, "--scale");
   return scaledSize(cellsOfSize(example), scale, "cells");
-}
-
-/// "KEY=VALUE" in two; throws naming `option` and its form.
-std::pair<std::string, std::string> keyAndValue(const std::string& text, const std::string& option,
-                                                const std::string& form) {
-  const std::size_t at = text.find('=');
-  if (at == std::string::npos || at == 0 || at + 1 == text.size()) {
-    throw InputError(option + " " + text + ": expected " + form);
-  }
-  return {text.substr(0, at), text.substr(at + 1)};
-}
-
-std::vector<double> parseNumbers(const std::string& text, std::size_t count,
-                                 const std::string& what) {
-  std::vector<double> numbers;
-  std::istringstream in(text);
-  for (std::string word; std::getline(in, word, ',');) {
-    std::size_t used = 0;
-    double value = 0;
-    try {
-      value = std::stod(word, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (used == 0 || used != word.size() || !std::isfinite(value)) {
-      throw InputError(what + ": '" + word + "' is not a number");
-    }
-    numbers.push_back(value);
-  }
-  if (numbers.size() != count) {
-    throw InputError(what + ": expected " + std::to_string(count) + " numbers, as in 1,2,3");
-  }
-  return numbers;
-}
-
-int wholeNumber(double value, const std::string& what) {
-  if (value != std::floor(value) || std::abs(value) > 2147483647) {
-    throw InputError(what + ": expected whole numbers");
-  }
-  return static_cast<int>(value);
 }
 
 void readSides(const Options& options, const LabelGrid& grid, ModelOptions& model) {

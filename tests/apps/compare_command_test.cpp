@@ -83,6 +83,42 @@ TEST_F(CompareCommand, TakesExamplesTooSmallToMeasure) {
   EXPECT_THAT(runs[1].at("why").get<std::string>(), HasSubstr("block 16"));
 }
 
+TEST_F(CompareCommand, SweepsOverSettings) {
+  const CommandResult outcome =
+      compare("--seeds 1 --resolution 24 --engines blocks:block=8,blocks:block=4:levels=2");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json runs = read("compare.json").at("runs");
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].at("engine"), "blocks:block=8");
+  EXPECT_EQ(runs[1].at("engine"), "blocks:block=4:levels=2");
+  // The settings were used, and each result is a file of its own.
+  EXPECT_NE(readFile(file("blocks-block-8-0.vdb")),
+            readFile(file("blocks-block-4-levels-2-0.vdb")));
+
+  for (const char* wrong : {"best", "blocks:", "blocks:block", "blocks:block=", "blocks:patch=7",
+                            "blocks:block=x", "model:block=8=9"}) {
+    const CommandResult refused = compare(std::string("--seeds 1 --engines ") + wrong);
+    EXPECT_EQ(refused.status, 2) << wrong;
+    EXPECT_THAT(refused.err, HasSubstr("--engines")) << wrong;
+  }
+}
+
+TEST_F(CompareCommand, CountsViolationsOfEveryEngine) {
+  ASSERT_EQ(compare("--seeds 1").status, 0);
+  for (const json& run : read("compare.json").at("runs")) {
+    SCOPED_TRACE(run.dump(1));
+    const auto pairs = run.at("adjacency_pairs").get<std::int64_t>();
+    const auto violations = run.at("adjacency_violations").get<std::int64_t>();
+    EXPECT_GT(pairs, 0);
+    EXPECT_LE(violations, pairs);
+    if (run.at("engine") == "model") {
+      EXPECT_EQ(violations, 0);
+      EXPECT_EQ(run.at("unknown_blocks"), 0.0);
+    }
+    EXPECT_GT(run.at("peak_memory_bytes").get<std::int64_t>(), 1'000'000);
+  }
+}
+
 TEST_F(CompareCommand, NeverMakesAFinishedRunAgain) {
   ASSERT_EQ(compare("--seeds 1 --engines blocks").status, 0);
   const auto made = fs::last_write_time(file("blocks-0.glb"));
