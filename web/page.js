@@ -6,6 +6,10 @@ class Page {
     this.pictures = new Map([...document.querySelectorAll('[data-picture]')].map((img) => [img.dataset.picture, img.src]));
     this.sources = new Map([...document.querySelectorAll('[data-view]')].map((e) => [e.dataset.view, e]));
     this.parts = new Map();
+    for (const run of report.runs) {
+      run.engine ??= 'result';  // measured, and not known what made it
+      run.seed ??= 0;
+    }
     this.engines = [...new Set(report.runs.map((run) => run.engine))];
     styleEngines(this.engines);
     this.seeds = [...new Set(report.runs.map((run) => run.seed))];
@@ -21,7 +25,7 @@ class Page {
   run(engine, seed) { return this.report.runs.find((run) => run.engine === engine && run.seed === seed); }
   nameOf(run) {
     return this.report.kind === 'comparison' ? `${run.engine}, seed ${run.seed}`
-      : run.engine ? `the result (${run.engine})` : 'the result';
+      : run.engine !== 'result' ? `the result (${run.engine})` : 'the result';
   }
 }
 

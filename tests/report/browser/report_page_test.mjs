@@ -55,7 +55,7 @@ for (let y = 0; y < 32; ++y) {
 const example = 'hills <b> & "x\'.pgm';
 writeFileSync(example, pgm);
 const small = ['--cell-size', '1', '--height-scale', '0.2', '--size', '320x240', '--samples', '16', '-q'];
-run('compare', example, '-o', 'made', '--seeds', '2', '--engines', 'blocks,model', '--scale', '1.5,1,1', ...small);
+run('compare', example, '-o', 'made', '--seeds', '2', '--engines', 'blocks,optimize', '--scale', '1.5,1,1', ...small);
 const comparison = JSON.parse(readFileSync('made/compare.json', 'utf8'));
 const url = (path) => `file://${encodeURI(join(folder, path))}`;
 
@@ -78,7 +78,10 @@ async function open(path, { flags = [], ...options } = {}) {
     if (!/^(data|blob):/.test(request.url()) && request.url() !== url(path)) requests.push(request.url());
   });
   await page.goto(url(path));
-  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 30000 }).catch(() => {
+    check(`${path} opens`, false, errors.join('; '));
+    process.exit(1);
+  });
   return { context, page, errors, requests };
 }
 
@@ -331,7 +334,7 @@ const pasted = async () => {
 };
 const holdsFigures = (text) => {
   const rows = new Map(text.trim().split('\n').map((line) => [line.split('\t')[0], line.split('\t').slice(1)]));
-  return ['blocks', 'model'].every((engine, n) =>
+  return ['blocks', 'optimize'].every((engine, n) =>
     near(parseFloat((rows.get('likeness.lp_dense') || [])[n]), mean(engine, 'likeness', 'lp_dense'), 6e-4));
 };
 const copied = await pasted();
