@@ -93,19 +93,10 @@ Camera pictureCamera(const TriangleMesh& mesh, const RenderOptions& options) {
   validate(mesh, "picture");
   CameraFit fit(options);
   Box3d held;
-  const auto hold = [&](const Vec3d& p) {
+  forEachHeldPoint(mesh, options, [&](const Vec3d& p) {
     fit.add(p);
     held.add(p);
-  };
-  if (options.frame) {
-    const Box3d& b = *options.frame;
-    for (int corner = 0; corner < 8; ++corner)
-      hold({(corner & 1 ? b.max : b.min).x, (corner & 2 ? b.max : b.min).y,
-            (corner & 4 ? b.max : b.min).z});
-  } else {
-    for (const auto& triangle : mesh.triangles)
-      for (const std::uint32_t v : triangle) hold(mesh.positions[v]);
-  }
+  });
   const Vec3d size = held.size();
   const double reach = std::max({size.x, size.y, size.z}) / 2;
   return fit.camera(reach > 0 ? 0.05 * reach : 1);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "core/vec.h"
@@ -38,6 +39,21 @@ class CameraFit {
   double freeX_, freeY_;
   double lowX_, highX_, lowY_, highY_, nearest_;
 };
+
+/// Calls `hold` for every point that a picture of `mesh` must show: the frame's corners, or the
+/// vertices of triangles.
+template <class Hold>
+void forEachHeldPoint(const TriangleMesh& mesh, const RenderOptions& options, const Hold& hold) {
+  if (options.frame) {
+    const Box3d& b = *options.frame;
+    for (int corner = 0; corner < 8; ++corner)
+      hold({(corner & 1 ? b.max : b.min).x, (corner & 2 ? b.max : b.min).y,
+            (corner & 4 ? b.max : b.min).z});
+  } else {
+    for (const auto& triangle : mesh.triangles)
+      for (const std::uint32_t v : triangle) hold(mesh.positions[v]);
+  }
+}
 
 /// The camera of the picture that `render` takes of `mesh`, in world units: where a point of the
 /// scene is in the picture. Throws `InputError` for a mesh that `validate` refuses.

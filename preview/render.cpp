@@ -138,20 +138,11 @@ Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& option
   upright.turnedOver = false;
   CameraFit fit(options);
   double reach = 0;
-  const auto hold = [&](const Vec3d& p) {
+  forEachHeldPoint(mesh, options, [&](const Vec3d& p) {
     const Vec3d q = upright(p);
     fit.add(q);
     reach = std::max({reach, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-  };
-  if (options.frame) {
-    const Box3d& b = *options.frame;
-    for (int corner = 0; corner < 8; ++corner)
-      hold({(corner & 1 ? b.max : b.min).x, (corner & 2 ? b.max : b.min).y,
-            (corner & 4 ? b.max : b.min).z});
-  } else {
-    for (const auto& triangle : mesh.triangles)
-      for (const std::uint32_t v : triangle) hold(mesh.positions[v]);
-  }
+  });
   camera_ = fit.camera(reach > 0 ? 0.05 * reach : 1);
   if (scale_.turnedOver) {
     camera_.position = SceneScale::turn(camera_.position);
