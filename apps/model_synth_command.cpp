@@ -12,6 +12,7 @@
 #include "apps/command.h"
 #include "apps/json.h"
 #include "apps/label_example.h"
+#include "apps/report.h"
 #include "apps/terminal.h"
 #include "apps/words.h"
 #include "core/error.h"
@@ -28,7 +29,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> examples;
-  std::string output, size, scale, preview, stats, block;
+  std::string output, size, scale, preview, stats, report, block;
   std::string engine = "model";
   std::vector<std::string> sides, pins, counts, connected, weights, weightMaps, offsets;
   std::string periodic, mirror, mask;
@@ -292,6 +293,27 @@ void writeFrames(const Options& options, const std::vector<LabelGrid>& frames,
                               framePath(options.output, frames.size() - 1).string());
 }
 
+/// A page of the example, the result and, where labels stand for a distance field, their figures.
+void writeReport(const Options& options, const LabelExample& example, const LabelGrid& grid,
+                 double seconds, const RenderOptions& picture, Terminal& terminal) {
+  terminal.step("making the report");
+  ExampleOptions reading;
+  reading.resolution = example.field ? options.reading.resolution : std::nullopt;
+  reading.sceneSeed = options.reading.sceneSeed;
+  reading.mesh = options.reading.mesh;
+  reading.cellSize = options.reading.pointDistance;
+  reading.heightScale = options.reading.heightScale;
+  writeLabelReport(options.report, example, reading, grid,
+                   {{"engine", "model"},
+                    {"seed", options.model.seed},
+                    {"seconds", seconds},
+                    {"peak_memory_bytes", peakResidentBytes()},
+                    {"labels", example.grid.labelCount()}},
+                   picture, terminal.progress());
+  terminal.stopIfInterrupted();
+  terminal.say("report", options.report);
+}
+
 void synth(const Options& options) {
   const Stopwatch total;
   const ThreadLimit limit(options.common.threads);
@@ -299,6 +321,7 @@ void synth(const Options& options) {
   requireOutput(options.output, std::string(kLabelOutputEndings) + " .gif");
   if (!options.preview.empty()) requireOutput(options.preview, ".png");
   if (!options.stats.empty()) requireOutput(options.stats, ".json");
+  if (!options.report.empty()) requireOutput(options.report, ".html");
   const RenderOptions picture = renderOptions(options.picture);
 
   std::vector<LabelGrid> grids;
@@ -315,6 +338,9 @@ void synth(const Options& options) {
   if (!moves && (model.loop || lowerExtension(options.output) == ".gif")) {
     throw InputError((model.loop ? "--loop" : options.output) +
                      ": only what changes over time does; say how many --frames");
+  }
+  if (moves && !options.report.empty()) {
+    throw InputError("--report: a page shows one frame; leave out --frames or --report");
   }
   if (lowerExtension(options.output) == ".png" && model.size.z != 1) {
     throw InputError(options.output + ": a picture has one layer, and the result " +
@@ -358,6 +384,9 @@ void synth(const Options& options) {
   if (!options.preview.empty()) {
     writePng(options.preview, image);
     terminal.say("picture", options.preview);
+  }
+  if (!options.report.empty()) {
+    writeReport(options, example, grid, synthesisSeconds, picture, terminal);
   }
   if (!options.stats.empty()) {
     const ModelStatistics& s = result.statistics;
@@ -510,6 +539,8 @@ CommandRun addModelSynthCommand(CLI::App& app) {
   command->add_flag("--instances", options->instances,
                     "a .glb of model pieces: write each piece once and place it");
   command->add_option("--preview", options->preview, "also write a picture of the result (.png)");
+  command->add_option("--report", options->report,
+                      "also write a page with surfaces that turn, figures and what shows (.html)");
   command->add_option("--view", options->picture.view, "the picture's view, as in exemplar render")
       ->capture_default_str();
   command->add_option("--picture-size", options->picture.size, "its WIDTHxHEIGHT in pixels")

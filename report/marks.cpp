@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "measure/novelty.h"
@@ -19,6 +21,7 @@ namespace {
 constexpr int kSeamCell = 6, kRepeatCell = 8;  // samples
 constexpr std::size_t kLeastSurface = 12;      // samples of a cell of the example, to count at all
 constexpr double kLeastShare = 0.25;           // of such a cell, to be there again
+constexpr std::size_t kPlacesLooked = 64;      // of a repeated part
 constexpr std::size_t kLooked = 400;           // samples of a place that are looked at
 
 /// The solid samples with an empty one at a face, by rising index.
@@ -205,12 +208,17 @@ void markRepeats(const DistanceField& example, const std::vector<std::size_t>& e
                      [](const auto* a, const auto* b) { return a->size() > b->size(); });
     const int group = static_cast<int>(taken.size());
     taken.push_back(cell);
-    for (std::size_t w = 0; w < whole.size() && static_cast<int>(w) < options.places; ++w) {
-      Mark mark{Mark::Kind::Repeat, group};
+    std::vector<Mark> found;
+    for (std::size_t w = 0; w < std::min(whole.size(), kPlacesLooked); ++w) {
+      Mark& mark = found.emplace_back(Mark{Mark::Kind::Repeat, group});
       mark.value = use(c) / average;
       eye.look(grid, *whole[w], mark);
-      marks.push_back(std::move(mark));
     }
+    std::stable_partition(found.begin(), found.end(),
+                          [](const Mark& m) { return m.at.has_value(); });
+    if (static_cast<int>(found.size()) > options.places)
+      found.resize(static_cast<std::size_t>(options.places));
+    std::move(found.begin(), found.end(), std::back_inserter(marks));
   }
 }
 

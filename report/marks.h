@@ -44,8 +44,8 @@ struct MarkOptions {
   double leastCopy = 0.05;  ///< share of the example's surface, from which a copy counts
 };
 
-/// Finds what to look at in a result: by kind, the worst first; seams that the camera sees before
-/// those that it does not. Only the surface counts: solid
+/// Finds what to look at in a result: by kind, the worst first; seams and places that the
+/// camera sees before those that it does not. Only the surface counts: solid
 /// samples with an empty one at a face.
 ///
 /// Seams: the surface is cut into cells of 6 samples a side; the cells with most jump, none beside

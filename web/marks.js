@@ -2,7 +2,7 @@
 
 const kMarks = {
   seam: { name: 'Seams', one: 'seam', says: (m) => `jumps by ${short(m.value)} voxels` },
-  repeat: { name: 'Repeated parts', one: 'part', says: (m) => `${short(m.value)} times as often as others` },
+  repeat: { name: 'Repeated parts', one: 'part', says: (m) => `${short(m.value)} times as often as the average part` },
   copy: { name: 'Copies', one: 'copy', says: (m) => `${short(100 * m.value)} % of the example’s surface, in one piece` },
 };
 

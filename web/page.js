@@ -33,7 +33,7 @@ function header(page) {
   const { report } = page;
   const facts = [
     report.example.samples && ['example', `${times(report.example.samples)} samples`],
-    report.voxel_size && ['voxel', `${short(report.voxel_size)} units`],
+    report.voxel_size && ['voxel', `${short(report.voxel_size)} world units`],
     report.scale && ['scale', times(report.scale)],
     report.kind === 'comparison' && ['runs', `${page.engines.length} engines × ${page.seeds.length} ${page.seeds.length === 1 ? 'seed' : 'seeds'}`],
     ['exemplar', report.version],
