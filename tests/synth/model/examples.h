@@ -16,11 +16,17 @@ LabelGrid drawn(const std::vector<std::vector<std::string>>& layers);
 /// A flat grid; the first string is the topmost row (largest y), as on paper.
 LabelGrid drawnFlat(const std::vector<std::string>& rows);
 
-/// The thesis' figure 3.5 rebuilt from its description: from every '2' a path leads to a '6' two
+/// The thesis' figure 3.5 rebuilt from its description (section 3.3.4): a '2' implies a '6' two
+/// cells on, over one of two ways, with a '3' or a '7' beside the '2' that both look possible until
+/// they are not; in the infallible twin (section 3.3.8) a '9' stands for an enclosed '0', which
+/// statement 3.11 and regions of 2 x 2 prove. The drawing itself is not copied: the letters, the
+/// 'i', and which way is up are ours. So: from every '2' a path leads to a '6' two
 /// cells above, over one of two ways that look alike in part. With `infallible`, the empty
 /// cells that this encloses have labels of their own (figure 3.15).
 LabelGrid figure35(bool infallible = false);
-/// An example of figure 3.6's kind: ends of paths, which come in pairs. Labels are named by where a
+/// An example of figure 3.6's kind, after its description (section 3.3.4): ends of paths, which
+/// come in pairs, so that three of them contradict each other long before a set is empty. The
+/// figure has one path two cells wide; here many wind one cell wide. Labels are named by where a
 /// path leaves the cell: "" for none, "e", "n", "w" or "s" at an end, two letters between.
 LabelGrid figure36();
 
