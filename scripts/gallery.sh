@@ -17,3 +17,15 @@ for scene in "${scenes[@]}"; do
   "$exemplar" synth "scenes/$scene.toml" -o "out/gallery/$scene.glb" --stats "out/gallery/$scene.json" "${method[@]}"
   "$exemplar" render "scenes/$scene.toml" "out/gallery/$scene.glb" -o "docs/gallery/$scene.png" --size 640x480 --samples 48
 done
+
+# The report of a comparison, as a browser shows it.
+if [ $# -eq 0 ] && command -v chromium >/dev/null; then
+  echo "== report"
+  "$exemplar" compare scenes/chainmail.toml --resolution 48 -o out/gallery/report
+  profile=$(mktemp -d)
+  chromium --headless --no-sandbox --disable-gpu --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic \
+    --no-first-run --disable-background-networking --disable-component-update --disable-sync --user-data-dir="$profile" \
+    --hide-scrollbars --window-size=1200,1640 --timeout=20000 --virtual-time-budget=8000 \
+    --screenshot=docs/gallery/report.png "file://$PWD/out/gallery/report/report.html#origins" 2>/dev/null
+  rm -rf "$profile"
+fi

@@ -96,6 +96,8 @@ function viewsSection(page, board) {
   };
   const modes = { material: 'Material' };
   if (page.report.has_origins !== false) Object.assign(modes, { origins: 'Origins', jumps: 'Seam jump' });
+  // report.html#origins opens with these colours.
+  if (modes[location.hash.slice(1)]) board.mode = location.hash.slice(1);
   const turn = h('button', {
     type: 'button', class: 'turn', 'aria-pressed': 'false',
     click: () => {
@@ -109,7 +111,7 @@ function viewsSection(page, board) {
       h('select', { id: 'seed', change: (event) => { page.seed = page.seeds[event.target.selectedIndex]; page.onSeed.forEach((f) => f()); } },
         page.seeds.map((seed) => h('option', { value: seed }, seed)))) : null,
     board.viewer ? [
-      segments('Colour', modes, board.mode, (mode) => { board.mode = mode; explain(); board.refresh(); }),
+      Object.keys(modes).length > 1 && segments('Colour', modes, board.mode, (mode) => { board.mode = mode; explain(); board.refresh(); }),
       segments('Scale', { same: 'One scale', fit: 'Fit each' }, 'same', (value) => { board.sameScale = value === 'same'; board.refresh(); }),
       h('span', { class: 'buttons', role: 'group', 'aria-label': 'View' },
         Object.keys(kViewNames).map((name) => h('button', { type: 'button', 'data-look': name, click: () => look(name) }, capital(name))), turn),

@@ -229,7 +229,7 @@ function legend(board) {
         page.report.voxel_size ? ` (one is ${short(page.report.voxel_size)} world units)` : '', '. Grey: no seam.'));
   }
   return h('div', { class: 'legend' }, h('p', {}, h('b', {}, 'Material. '),
-    'The example’s own colours and materials, carried to the result through its origins. The light stands still and was gathered beforehand, as in the pictures.'));
+    `The example’s own colours and materials${page.report.has_origins === false ? '' : ', carried to the result through its origins'}. The light stands still and was gathered beforehand, as in the pictures.`));
 }
 
 /// Radio buttons in a row.
