@@ -260,6 +260,18 @@ class Assembly {
     }
     dropBrokenPieces(sheet_.field, origins, {seams.usable, seams.fixed});
     result.field = even(origins, seams);
+    // What is thin may have come apart below the surface: that goes as well, and what little is
+    // left after evening once more goes as it is copied.
+    BrokenPiecesOptions pieces{seams.usable, seams.fixed, &result.field.values};
+    if (dropBrokenPieces(sheet_.field, origins, pieces) > 0) {
+      result.field = even(origins, seams);
+      const Origins before = origins;
+      dropBrokenPieces(sheet_.field, origins, pieces);
+      for (std::size_t s = 0; s < origins.count(); ++s) {
+        if (origins.values()[s] == before.values()[s]) continue;
+        result.field.values.values()[s] = sheet_.field.values[origins.values()[s].cell()];
+      }
+    }
     result.origins = std::move(origins);
     for (Origin& origin : result.origins.values()) origin = sheet_.toExample(parts_, origin);
     return result;

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "tests/synth/fields.h"
 
 namespace exemplar {
@@ -98,6 +101,67 @@ TEST(BrokenPieces, WithoutWholePiecesTheLargestIsTheMeasure) {
   origins(12, 12, 14) = Origin({12, 12, 0});
   EXPECT_EQ(dropBrokenPieces(example, origins), 1);
   EXPECT_FALSE(solid(example, origins, {12, 12, 14}));
+}
+
+/// A heap: balls of radius 5.2 on a grid of 10, which pass into each other by thin necks.
+DistanceField heap(const Vec3i& size) {
+  DistanceField field = constant(size, 0);
+  for (std::size_t s = 0; s < field.values.count(); ++s) {
+    const Vec3d p = cast<double>(field.values.ijk(s));
+    double nearest = 1e9;
+    for (int k = 0; k < 5; ++k)
+      for (int j = 0; j < 5; ++j)
+        for (int i = 0; i < 5; ++i)
+          nearest = std::min(nearest, length(p - Vec3d{10.0 * i, 10.0 * j, 10.0 * k}));
+    // The contacts are 0.2 deep.
+    field.values.values()[s] = static_cast<float>(nearest - 5.2);
+  }
+  return field;
+}
+
+TEST(BrokenPieces, ASliverThatRestsOnABallGoesWithItsSkin) {
+  const DistanceField example = heap({41, 41, 41});
+  Origins origins = asItIs(example.size());
+  Array3D<float> values = example.values;
+  ASSERT_EQ(dropBrokenPieces(example, origins, {.values = &values}), 0);
+  // Against a ball: 0.6 deep, but for its outer side.
+  const std::array<Vec3i, 4> sliver{{{14, 14, 9}, {14, 14, 10}, {14, 14, 11}, {15, 14, 10}}};
+  ASSERT_LT(values(13, 14, 10), 0);
+  for (const Vec3i& p : sliver) {
+    ASSERT_GT(values[p], 0);
+    values[p] = p.x == 14 ? -0.6f : -0.3f;
+    origins[p] = Origin({20, 20, 20});
+  }
+  EXPECT_EQ(dropBrokenPieces(example, origins), 0);  // seen from the surface all is one
+  Origins cleared = origins;
+  EXPECT_EQ(dropBrokenPieces(example, cleared, {.values = &values}), 4);
+  for (std::size_t s = 0; s < origins.count(); ++s) {
+    const bool gone = std::ranges::count(sliver, origins.ijk(s)) > 0;
+    ASSERT_EQ(cleared.values()[s] != origins.values()[s], gone);
+    if (gone) {
+      EXPECT_GE(example.values[cleared.values()[s].cell()], 0);
+    }
+  }
+}
+
+TEST(BrokenPieces, ABubbleIsFilled) {
+  const DistanceField example = ground({24, 24, 16}, 1);
+  Origins origins = asItIs(example.size());
+  Vec3i deep{12, 12, 3};
+  ASSERT_TRUE(solid(example, origins, deep));
+  origins[deep] = Origin({12, 12, 15});
+  ASSERT_FALSE(solid(example, origins, deep));
+  EXPECT_EQ(dropBrokenPieces(example, origins), 1);
+  EXPECT_TRUE(solid(example, origins, deep));
+}
+
+TEST(BrokenPieces, WhatIsFixedStays) {
+  const DistanceField example = ground({24, 24, 16}, 1);
+  Origins origins = asItIs(example.size());
+  origins(12, 12, 14) = Origin({12, 12, 0});
+  origins(12, 12, 3) = Origin({12, 12, 15});
+  const Array3D<std::uint8_t> fixed(origins.size(), 1);
+  EXPECT_EQ(dropBrokenPieces(example, origins, {.fixed = &fixed}), 0);
 }
 
 TEST(BrokenPieces, WithoutAirNothingChanges) {
