@@ -38,15 +38,31 @@ constexpr float kSaturation = 8;
 /// runs through, one layer of samples added on each side, index space for positions.
 class ContourField {
  public:
-  ContourField(const DistanceField& field, bool close);
+  ContourField(const DistanceField& field, const FieldToMeshOptions& options);
 
   /// The size without the added layers.
   const Vec3i& size() const { return size_; }
   bool close() const { return close_; }
+  bool wraps(int axis) const { return wraps_[axis]; }
+  bool wraps() const { return wraps_[0] || wraps_[1] || wraps_[2]; }
   const Array3D<float>& padded() const { return padded_; }
   Array3D<float>& padded() { return padded_; }
 
   float at(int i, int j, int k) const { return padded_(i + 1, j + 1, k + 1); }
+
+  /// What the box's faces on the sides `side` (as of `face`) of outer sample `p` have: the sample's
+  /// value carried on; half way between the first and the last sample where the field wraps.
+  double atFace(const Vec3i& p, const Vec3i& side) const {
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      Vec3i q = p;
+      for (int a = 0; a < 3; ++a) {
+        if (side[a] != 0 && wraps_[a]) q[a] = (corner >> a & 1) ? 0 : size_[a] - 1;
+      }
+      sum += at(q.x, q.y, q.z);
+    }
+    return sum / 8;
+  }
 
   /// Whether the cell from sample `cell` to its upper neighbour lies in the box's face of `axis`:
   /// -1 the lower one, 1 the upper one, 0 inside.
@@ -62,6 +78,7 @@ class ContourField {
  private:
   Vec3i size_;
   bool close_;
+  std::array<bool, 3> wraps_;
   Array3D<float> padded_;
 };
 
@@ -101,8 +118,11 @@ double typicalDifference(const DistanceField& field) {
   return sum.count == 0 ? 0 : sum.total / static_cast<double>(sum.count);
 }
 
-ContourField::ContourField(const DistanceField& field, bool close)
-    : size_(field.size()), close_(close), padded_(field.size() + Vec3i{2, 2, 2}) {
+ContourField::ContourField(const DistanceField& field, const FieldToMeshOptions& options)
+    : size_(field.size()),
+      close_(options.close),
+      wraps_(options.wraps),
+      padded_(field.size() + Vec3i{2, 2, 2}) {
   const double difference = typicalDifference(field);
   const auto scale =
       static_cast<float>(1 / (difference > 0 ? std::min(difference, field.voxelSize) : 1.0));
@@ -114,10 +134,13 @@ ContourField::ContourField(const DistanceField& field, bool close)
     for (int k = static_cast<int>(k0); k < static_cast<int>(k1); ++k) {
       for (int j = 0; j < padded_.size().y; ++j) {
         for (int i = 0; i < padded_.size().x; ++i) {
-          const Vec3i inside = field.values.clamped({i - 1, j - 1, k - 1});
-          const bool added = inside != Vec3i{i - 1, j - 1, k - 1};
+          Vec3i at{i - 1, j - 1, k - 1};
+          for (int a = 0; a < 3; ++a) {
+            if (wraps_[a]) at[a] = (at[a] + size_[a]) % size_[a];
+          }
+          const Vec3i inside = field.values.clamped(at);
           const float v = tamed(field.values[inside]);
-          padded_(i, j, k) = added && close ? std::abs(v) : v;
+          padded_(i, j, k) = inside != at && close_ ? std::abs(v) : v;
         }
       }
     }
@@ -139,9 +162,14 @@ double ContourField::smoothValue(const Vec3d& p, Vec3d* gradient) const {
   std::array<std::array<int, 4>, 3> at;
   std::array<std::array<double, 4>, 3> weight, slope;
   for (int a = 0; a < 3; ++a) {
-    const double x = std::clamp(p[a], 0.0, size_[a] - 1.0);
-    const int base = std::clamp(static_cast<int>(x), 0, std::max(0, size_[a] - 2));
-    for (int n = 0; n < 4; ++n) at[a][n] = std::clamp(base - 1 + n, 0, size_[a] - 1) + 1;
+    const int n = size_[a];
+    const double x = wraps_[a] ? p[a] : std::clamp(p[a], 0.0, n - 1.0);
+    const int base = wraps_[a] ? static_cast<int>(std::floor(x))
+                               : std::clamp(static_cast<int>(x), 0, std::max(0, n - 2));
+    for (int m = 0; m < 4; ++m) {
+      const int i = base - 1 + m;
+      at[a][m] = (wraps_[a] ? ((i % n) + n) % n : std::clamp(i, 0, n - 1)) + 1;
+    }
     cubicWeights(x - base, weight[a], slope[a]);
   }
   double sum = 0;
@@ -171,7 +199,9 @@ double ContourField::smoothValue(const Vec3d& p, Vec3d* gradient) const {
 double ContourField::value(const Vec3d& p) const {
   double v = smoothValue(p, nullptr);
   if (close_) {
-    for (int a = 0; a < 3; ++a) v = std::max({v, -0.5 - p[a], p[a] - (size_[a] - 0.5)});
+    for (int a = 0; a < 3; ++a) {
+      if (!wraps_[a]) v = std::max({v, -0.5 - p[a], p[a] - (size_[a] - 0.5)});
+    }
   }
   return v;
 }
@@ -268,8 +298,7 @@ void snapToBox(const ContourField& field, const Array3D<std::uint8_t>& inCell, P
             low[c] = side[c] < 0 ? 0 : side[c] > 0 ? cell[c] : cell[c] + (corner >> 1);
             Vec3i high = low;
             ++high[along];
-            const double from = field.at(low.x, low.y, low.z),
-                         to = field.at(high.x, high.y, high.z);
+            const double from = field.atFace(low, side), to = field.atFace(high, side);
             if ((from < 0) == (to < 0)) continue;
             Vec3d crossing = cast<double>(low);
             crossing[along] += from / (from - to);
@@ -366,17 +395,19 @@ TriangleMesh triangulate(const ContourField& field, const Polygons& polygons) {
 }
 
 /// Without closing, the surface went on through the added layer; what lies beyond the box's faces
-/// goes.
+/// goes, and what lies in the lower one of two faces that are the same.
 void cutOpen(const ContourField& field, Polygons& polygons) {
   std::erase_if(polygons.corners, [&](const std::array<std::uint32_t, 4>& corners) {
+    std::array<bool, 3> inLower{field.wraps(0), field.wraps(1), field.wraps(2)};
     for (const std::uint32_t v : corners) {
       if (v == kNone) continue;
       const Vec3i cell = cellOf(polygons.points[v]);
       for (int a = 0; a < 3; ++a) {
         if (cell[a] < -1 || cell[a] > field.size()[a] - 1) return true;
+        inLower[a] = inLower[a] && cell[a] == -1;
       }
     }
-    return false;
+    return inLower[0] || inLower[1] || inLower[2];
   });
 }
 
@@ -507,6 +538,28 @@ DistanceField repaired(const DistanceField& field) {
   return result;
 }
 
+/// The same for a field that goes round: with a margin that shows what lies at the other side.
+DistanceField repairedAround(const DistanceField& field, const std::array<bool, 3>& wraps) {
+  constexpr int kMargin = 10;  // a sample's distance depends on what lies this near
+  if (!wraps[0] && !wraps[1] && !wraps[2]) return repaired(field);
+  const Vec3i n = field.size();
+  Vec3i margin{};
+  for (int a = 0; a < 3; ++a) margin[a] = wraps[a] ? kMargin : 0;
+  DistanceField around = field;
+  around.values = Array3D<float>(n + margin * 2);
+  for (std::size_t s = 0; s < around.values.count(); ++s) {
+    Vec3i p = around.values.ijk(s) - margin;
+    for (int a = 0; a < 3; ++a) p[a] = ((p[a] % n[a]) + n[a]) % n[a];
+    around.values.values()[s] = field.values[p];
+  }
+  around = repaired(around);
+  DistanceField result = field;
+  for (std::size_t s = 0; s < result.values.count(); ++s) {
+    result.values.values()[s] = around.values[result.values.ijk(s) + margin];
+  }
+  return result;
+}
+
 void check(const DistanceField& field, const FieldToMeshOptions& options) {
   if (!(options.adaptivity >= 0 && options.adaptivity <= 1)) {
     throw InputError("adaptivity: " + std::to_string(options.adaptivity) +
@@ -547,7 +600,7 @@ void check(const DistanceField& field, const FieldToMeshOptions& options) {
 TriangleMesh contourToTriangles(ContourField& field, const FieldToMeshOptions& options,
                                 double adaptivity, ManifoldReport& report) {
   Polygons polygons = contour(field, adaptivity);
-  if (!field.close()) cutOpen(field, polygons);
+  if (!field.close() || field.wraps()) cutOpen(field, polygons);
   const Array3D<std::uint8_t> inCell = pointsInCells(field, polygons);
   snapToBox(field, inCell, polygons);
   if (options.project) project(field, inCell, polygons);
@@ -563,10 +616,11 @@ TriangleMesh fieldToMesh(const DistanceField& field, const FieldToMeshOptions& o
                          FieldToMeshReport* report) {
   check(field, options);
   FieldToMeshReport done;
-  ContourField contourField(options.redistance ? repaired(field) : field, options.close);
+  ContourField contourField(options.redistance ? repairedAround(field, options.wraps) : field,
+                            options);
   done.uniform = options.adaptivity == 0;
   TriangleMesh mesh = contourToTriangles(contourField, options, options.adaptivity, done.manifold);
-  const bool sound = (done.manifold.boundaryEdges == 0 || !options.close) &&
+  const bool sound = (done.manifold.boundaryEdges == 0 || !options.close || contourField.wraps()) &&
                      done.manifold.degenerateTriangles == 0;
   if (!done.uniform && !sound) {
     done.uniform = true;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "mesh/mesh_health.h"
@@ -16,6 +17,10 @@ struct FieldToMeshOptions {
   /// Close the surface where the field's box cuts it, flat and with sharp rims; else it ends open
   /// there.
   bool close = true;
+  /// Along which axes the field goes round, its last sample beside its first: there the surface
+  /// ends open at both faces of the box, and alike, so that copies put side by side join. Where the
+  /// surface runs along such a face, it has the upper face's part only.
+  std::array<bool, 3> wraps{};
   /// Make the field a signed distance again before contouring (`redistance`): a synthesized one
   /// jumps where two copied parts meet, and a jump misplaces the surface between two samples.
   bool redistance = true;
@@ -43,9 +48,9 @@ struct FieldToMeshReport {
 ///
 /// The result winds anticlockwise seen from outside, has no triangle without area, every edge has
 /// two triangles and every vertex one fan, whatever the field holds (white noise, touching voxels);
-/// with `close` off, edges in the box's faces have one triangle. Positions are exact to about a
-/// tenth of a voxel where the field is a smooth distance. Where `adaptivity` cannot keep that
-/// promise, the field is contoured without it.
+/// with `close` off, and where the field wraps, edges in the box's faces have one triangle.
+/// Positions are exact to about a tenth of a voxel where the field is a smooth distance. Where
+/// `adaptivity` cannot keep that promise, the field is contoured without it.
 ///
 /// O(n) for n samples; about 6 bytes a sample beyond the field. The same bytes at any number of
 /// threads. Throws `InputError` for options out of range, for samples that are not finite and for a

@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -324,6 +327,67 @@ TEST(FieldToMesh, BadOptionsAndSamplesAreRefusedByName) {
   field.values(3, 2, 1) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT([&] { fieldToMesh(field); }, ThrowsMessage<InputError>(HasSubstr("3, 2, 1")));
   EXPECT_THROW(fieldToMesh(DistanceField{}), InputError);
+}
+
+/// A field that goes round along x and y: waves and balls, cut by the box along z.
+DistanceField roundAbout(const Vec3i& n) {
+  DistanceField field;
+  field.voxelSize = 0.5;
+  field.origin = {3, 4, 5};
+  field.values = Array3D<float>(n);
+  for (std::size_t s = 0; s < field.values.count(); ++s) {
+    const Vec3i p = field.values.ijk(s);
+    const double x = 2 * std::numbers::pi * (p.x + 0.3) / n.x, y = 2 * std::numbers::pi * p.y / n.y;
+    const double waves = std::sin(x) + std::cos(2 * y + x) + std::sin(0.9 * p.z);
+    field.values.values()[s] = static_cast<float>(waves * 0.5);
+  }
+  return field;
+}
+
+/// How many edges have one triangle if vertices in the same place, round about, are one.
+std::int64_t openWhenTiled(const TriangleMesh& mesh, const Box3d& box,
+                           const std::array<bool, 3>& wraps) {
+  std::map<std::array<std::int64_t, 3>, std::uint32_t> places;
+  std::vector<std::uint32_t> place;
+  for (const Vec3d& p : mesh.positions) {
+    std::array<std::int64_t, 3> key;
+    for (int a = 0; a < 3; ++a) {
+      double at = p[a];
+      if (wraps[a] && at > box.max[a] - 1e-6) at -= box.size()[a];
+      key[a] = std::llround(at * 1e5);
+    }
+    place.push_back(places.emplace(key, static_cast<std::uint32_t>(places.size())).first->second);
+  }
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
+  for (const auto& t : mesh.triangles) {
+    for (int c = 0; c < 3; ++c) ++sides[std::minmax(place[t[c]], place[t[(c + 1) % 3]])];
+  }
+  return std::ranges::count_if(sides, [](const auto& side) { return side.second % 2 != 0; });
+}
+
+TEST(FieldToMesh, WhereTheFieldGoesRoundCopiesJoin) {
+  const DistanceField field = roundAbout({24, 20, 16});
+  const std::array<bool, 3> wraps{true, true, false};
+  const TriangleMesh closed = fieldToMesh(field);
+  const TriangleMesh open = fieldToMesh(field, {.wraps = wraps});
+  ASSERT_TRUE(meshHealth(closed).closed());
+  EXPECT_FALSE(meshHealth(open).closed());
+  // The checker sees that closed copies do not join, and neither do copies that end anywhere.
+  EXPECT_EQ(openWhenTiled(open, field.box(), wraps), 0);
+  EXPECT_GT(openWhenTiled(open, field.box(), {true, false, false}), 0);
+  EXPECT_GT(openWhenTiled(fieldToMesh(field, {.close = false}), field.box(), wraps), 0);
+  // Nothing closes the wrapped faces: no triangle lies in the lower one.
+  for (const auto& t : open.triangles) {
+    for (int a = 0; a < 2; ++a) {
+      EXPECT_FALSE(std::ranges::all_of(
+          t, [&](std::uint32_t v) { return open.positions[v][a] < field.box().min[a] + 1e-9; }));
+    }
+  }
+  // The box still cuts below and above.
+  EXPECT_TRUE(std::ranges::any_of(open.triangles, [&](const auto& t) {
+    return std::ranges::all_of(
+        t, [&](std::uint32_t v) { return open.positions[v].z < field.box().min.z + 1e-9; });
+  }));
 }
 
 }  // namespace
