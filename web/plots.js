@@ -69,6 +69,7 @@ function outcomes(engines, runs) {
     const took = own.map((run) => run.seconds).filter((s) => typeof s === 'number');
     const peaks = own.map(peakOf).filter((b) => typeof b === 'number');
     const violations = complete.filter((run) => typeof run.adjacency_violations === 'number');
+    const pairs = violations.map((run) => run.adjacency_pairs).filter((v) => typeof v === 'number');
     const unknown = violations.map((run) => run.unknown_blocks).filter((v) => typeof v === 'number');
     const range = (values, write) => {
       if (!values.length) return kDash;
@@ -88,8 +89,9 @@ function outcomes(engines, runs) {
       h('td', { 'data-label': 'time' }, range(took, seconds)),
       h('td', { 'data-label': 'memory' }, range(peaks, bytes)),
       h('td', { 'data-label': 'violations' }, violations.length
-        ? [range(violations.map((run) => run.adjacency_violations), grouped), violations[0].adjacency_pairs ? ` of ${grouped(violations[0].adjacency_pairs)} pairs` : '',
-          unknown.length && Math.max(...unknown) > 0 ? h('small', {}, `and ${range(unknown, grouped)} blocks like none of the example’s`) : null]
+        ? [range(violations.map((run) => run.adjacency_violations), grouped),
+          pairs.length ? h('small', {}, `of ${range(pairs, grouped)} pairs of neighbours`) : null,
+          unknown.length && Math.max(...unknown) > 0 ? h('small', {}, `${range(unknown, (v) => `${Math.round(100 * v)} %`)} of the blocks are like none of the example’s`) : null]
         : 'not computed'));
   };
   return h('table', { class: 'outcomes' },
