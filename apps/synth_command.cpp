@@ -119,8 +119,10 @@ TriangleMesh reconstruct(const Options& options, const Examples& examples,
     return copyTriangles(result.field, result.origins, *example.mesh, example.field).mesh;
   }
   terminal.step("making the surface");
-  // The seams of the field are evened out already.
-  return reconstructSurface(result.field, result.origins, examples.views(), {.blend = 0},
+  ReconstructOptions surface;
+  surface.blend = 0;  // the seams of the field are evened out already
+  surface.contour.wraps = parseAxes(options.control.periodic, "--periodic");
+  return reconstructSurface(result.field, result.origins, examples.views(), surface,
                             terminal.progress())
       .mesh;
 }

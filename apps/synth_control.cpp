@@ -113,7 +113,8 @@ void addControlOptions(CLI::App& command, SynthControl& control) {
                   "them: xyz, xy, none, ..., or auto")
       ->capture_default_str();
   command.add_option("--periodic", control.periodic,
-                     "axes along which copies of the result tile: x,y,z, xy, ...");
+                     "axes along which copies of the result tile: x,y,z, xy, ...; its surface "
+                     "is left open there, so that they join");
   command.add_option("--keep", control.keep,
                      "a solid (mesh or .vdb) in the example's coordinates: what is inside stays as "
                      "it is, and all else is made of it");
