@@ -69,6 +69,8 @@ class Field {
     findAllowed();
     if (options.start && options.start->position.size() != shape_)
       throw InputError("the start of a nearest-neighbour field has another shape");
+    if (options.wanted && (!options.start || options.wanted->size() != shape_))
+      throw InputError("wanted patches need a start, and a mask of the field's shape");
   }
 
   NearestNeighborField run() {
@@ -164,6 +166,17 @@ class Field {
     return !progress_.cancelled();
   }
 
+  bool wanted(const Vec3i& patch) const { return !options_.wanted || (*options_.wanted)[patch]; }
+
+  // The match of a patch that is not wanted: the start's, even where it could not be found.
+  void keepStart(const float* gathered, const Vec3i& patch, Candidate& best) const {
+    const Vec3i last = source_.positions() - Vec3i{1, 1, 1};
+    const Vec3i p = max(Vec3i{0, 0, 0}, min(options_.start->position[patch], last));
+    const std::uint32_t index = source_.index(p);
+    const float sum = source_.sum(gathered, index, std::numeric_limits<float>::infinity());
+    best = {sum, index, sum};
+  }
+
   void offerStart(const float* gathered, const Vec3i& patch, const Window& window,
                   Candidate& best) const {
     if (options_.start) offer(gathered, options_.start->position[patch], window, best);
@@ -179,6 +192,10 @@ class Field {
             const Vec3i patch{i, j, k};
             const std::uint32_t index = target_.index(patchPosition(patch));
             target_.gather(index, gathered);
+            if (!wanted(patch)) {
+              keepStart(gathered, patch, best_[patch]);
+              continue;
+            }
             const kernels::QueryFeatures features = tree.features(target_, index, norm);
             const Window limits = window(patch);
             Candidate best = kNothing;
@@ -217,6 +234,10 @@ class Field {
               for (int i = first.x; i < last.x; ++i) {
                 const Vec3i patch{i, j, k};
                 target_.gather(target_.index(patchPosition(patch)), gathered);
+                if (!wanted(patch)) {
+                  keepStart(gathered, patch, best_[patch]);
+                  continue;
+                }
                 const Window limits = window(patch);
                 Candidate best = kNothing;
                 offerStart(gathered, patch, limits, best);
@@ -238,6 +259,7 @@ class Field {
             for (int n = 0; n < size.x * size.y * size.z; ++n) {
               Vec3i patch{n % size.x, n / size.x % size.y, n / size.x / size.y};
               patch = direction > 0 ? first + patch : last - Vec3i{1, 1, 1} - patch;
+              if (!wanted(patch)) continue;
               target_.gather(target_.index(patchPosition(patch)), gathered);
               const Window limits = window(patch);
               Candidate best = best_[patch];

@@ -53,6 +53,9 @@ struct NearestNeighborFieldOptions {
   /// and Exact takes first upper bounds from it. Positions outside the source or not allowed are
   /// ignored.
   const NearestNeighborField* start = nullptr;
+  /// Which target patches are searched for, where not 0: of the field's shape, or none for all. The
+  /// others keep the match of `start`, which must be given.
+  const Array3D<std::uint8_t>* wanted = nullptr;
 
   int iterations = 5;      ///< PatchMatch: rounds of propagation and random search; >= 1
   std::uint64_t seed = 0;  ///< PatchMatch

@@ -227,5 +227,40 @@ TEST(NearestNeighborField, RefusesOptionsOutOfRange) {
   EXPECT_THROW(nearestNeighborField(a, a, {.sourceWeight = &zero}), InputError);
 }
 
+TEST(NearestNeighborField, PatchesThatAreNotWantedKeepTheirStart) {
+  const Channels source{levels(fields::noise({14, 13, 12}, 1))},
+      target{levels(fields::noise({15, 12, 11}, 2))};
+  Options options;
+  options.patch = {4, 3, 3};
+  const auto all = nearestNeighborField(source, target, options);
+  NearestNeighborField start = all;
+  for (Vec3i& p : start.position.values()) p = {1, 2, 3};
+  Array3D<std::uint8_t> wanted(all.position.size());
+  for (std::size_t n = 0; n < wanted.count(); ++n) wanted.values()[n] = n % 3 == 0;
+  options.start = &start;
+  options.wanted = &wanted;
+  for (const NeighborMethod method : {NeighborMethod::Exact, NeighborMethod::PatchMatch}) {
+    options.method = method;
+    const auto some = nearestNeighborField(source, target, options);
+    for (std::size_t n = 0; n < wanted.count(); ++n) {
+      const Vec3i p = wanted.ijk(n);
+      const double there = patchDistance(source, {1, 2, 3}, target, p, options.patch);
+      if (!wanted[p]) {
+        ASSERT_EQ(some.position[p], (Vec3i{1, 2, 3}));
+        ASSERT_NEAR(some.distance[p], there, 1e-3 * there + 1e-6);
+      } else if (method == NeighborMethod::Exact) {
+        ASSERT_EQ(some.distance[p], all.distance[p]);
+      } else {
+        ASSERT_LE(some.distance[p], there * 1.001 + 1e-6);
+      }
+    }
+  }
+  options.start = nullptr;
+  EXPECT_THROW(nearestNeighborField(source, target, options), InputError);
+  options.start = &start;
+  wanted = Array3D<std::uint8_t>({2, 2, 2});
+  EXPECT_THROW(nearestNeighborField(source, target, options), InputError);
+}
+
 }  // namespace
 }  // namespace exemplar
