@@ -13,10 +13,12 @@
 #include "core/memory.h"
 #include "core/random.h"
 #include "search/nearest_neighbor_field.h"
+#include "synth/geometry/bad_seams.h"
 #include "synth/geometry/broken_pieces.h"
 #include "synth/geometry/even_seams.h"
 #include "synth/geometry/patch_vote.h"
 #include "synth/geometry/pyramid.h"
+#include "synth/geometry/quilt.h"
 #include "synth/geometry/seams.h"
 #include "synth/geometry/source_sheet.h"
 
@@ -32,6 +34,12 @@ constexpr double kExactPairs = 3e6;
 constexpr int kFirstIterations = 8, kIterations = 2;
 /// Distance of neighbouring patches where the search is by PatchMatch.
 constexpr int kStride = 2;
+/// A quilt is made where the example has at most this many samples along its longest side.
+constexpr int kQuiltSide = 40;
+/// How far parts of an object that keeps its size may move along it, of its length.
+constexpr double kObjectShift = 0.16;
+/// Seams whose two sides differ by more than this, in voxels, are optimised away.
+constexpr double kBadSeam = 2;
 /// Seams see distances up to here, in voxels: one through air or through solid is free.
 constexpr float kSeamTruncation = 4;
 /// Seams of the coarser levels, where a few samples reach far: pieces grow into large ones.
@@ -113,6 +121,37 @@ NearestNeighborField startField(const PyramidLevel& level, const PyramidSources&
     field.position.values()[s] = max(Vec3i{0, 0, 0}, min(sources[middle] - half, lastMatch));
   }
   return field;
+}
+
+/// How far from its proportional place along an axis a block may come from, samples; negative: any
+/// distance. An object that is to be as long as it was keeps its ends, so its parts cannot go far,
+/// and where it is thin they stay.
+Vec3i blockWindow(const PyramidLevel& level, const StationaryAxes& stationary) {
+  const Vec3i n = level.partSize[0];
+  const int longest = std::max({n.x, n.y, n.z});
+  Vec3i window;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool object = level.low[axis] > 0 && level.high[axis] > 0;
+    if (object && level.targetSize[axis] == n[axis]) {
+      const bool thin = 2 * n[axis] < longest;
+      window[axis] = thin ? 0 : static_cast<int>(std::lround(n[axis] * kObjectShift));
+    } else {
+      window[axis] = stationary[axis] ? -1 : placeWindow(level, axis);
+    }
+  }
+  return window;
+}
+
+/// The same for patches: as far as a block's may be whose middle is within its window.
+Vec3i patchWindow(const PyramidLevel& level, const StationaryAxes& stationary) {
+  Vec3i window = blockWindow(level, stationary);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (window[axis] < 0) continue;
+    const double n = level.partSize[0][axis];
+    const double stretch = std::abs(1 - n / level.targetSize[axis]);
+    window[axis] += 1 + static_cast<int>(std::ceil(stretch * n / 2));
+  }
+  return window;
 }
 
 Channels channels(const Array3D<float>& values, const Array3D<float>& guide) {
@@ -221,6 +260,57 @@ void cutSeams(const PyramidLevel& level, const Array3D<float>& target, PyramidSo
     sources[origins.ijk(s) + first] = origins.values()[s].cell();
   }
   pinSources(level, sources);
+}
+
+/// A level's start from large blocks, their joints cut.
+PyramidSources startFromQuilt(const PyramidLevel& level, const StationaryAxes& stationary,
+                              const OptimizeOptions& options, const Progress& progress) {
+  QuiltOptions quilting;
+  quilting.seed = options.seed;
+  quilting.window = blockWindow(level, stationary);
+  quilting.cut = [&](PyramidSources& sources) {
+    Array3D<float> target = gather(level, sources);
+    pinTarget(level, static_cast<float>(options.truncation), target);
+    cutSeams(level, target, sources, progress);
+  };
+  return quilt(level, quilting, progress);
+}
+
+/// Optimises away the seams that show: patches that cover one are searched for and vote, and what
+/// they cover takes their sources; all else stays as copied. Returns how many patches were searched
+/// for.
+std::int64_t repairSeams(const PyramidLevel& level, const StationaryAxes& stationary,
+                         const OptimizeOptions& options, PyramidSources& sources,
+                         Array3D<float>& target, const Progress& progress) {
+  const Vec3i size = level.framedTarget();
+  NearestNeighborFieldOptions search;
+  search.patch = level.patch;
+  search.method = NeighborMethod::PatchMatch;
+  search.stride = min(Vec3i{kStride, kStride, kStride}, level.patch);
+  search.iterations = kIterations;
+  search.window = patchWindow(level, stationary);
+  NearestNeighborField field = startField(level, sources, search.stride);
+  const Array3D<std::uint8_t> wanted = patchesCovering(
+      badSeams(level, sources, kBadSeam), level.patch, search.stride, field.position.size());
+  const std::int64_t many = std::count(wanted.values().begin(), wanted.values().end(), 1);
+  if (many == 0) return 0;
+  search.wanted = &wanted;
+  const int rounds = (options.rounds + 5) / 6;
+  for (int round = 0; round < rounds; ++round) {
+    search.seed = Random(options.seed, kSearchStream).bits(0, round);
+    const NearestNeighborField previous = std::move(field);
+    search.start = &previous;
+    field = nearestNeighborField({level.source}, {target}, search, progress);
+    if (!field.complete || progress.cancelled()) return many;
+    target = vote(level, field, size);
+    pinTarget(level, static_cast<float>(options.truncation), target);
+  }
+  const Array3D<std::uint8_t> changed = samplesCovered(wanted, level.patch, search.stride, size);
+  const PyramidSources found = plurality(level, field, size);
+  for (std::size_t s = 0; s < sources.count(); ++s) {
+    if (changed.values()[s]) sources.values()[s] = found.values()[s];
+  }
+  return many * rounds;
 }
 
 /// The last steps: from where the finest level's samples come from to a field.
@@ -361,6 +451,21 @@ int defaultLevels(const DistanceField& example) {
   return levels;
 }
 
+/// Whether the result starts from large blocks of the example. What must be somewhere (kept,
+/// guided, meeting its other side) and examples that meet start from small ones, which are
+/// optimised on all levels.
+bool quilts(const OptimizeOptions& options, const std::vector<SourcePart>& parts) {
+  return parts.size() == 1 && !options.kept && !options.guide && !options.periodic.any();
+}
+
+int quiltLevels(const DistanceField& example) {
+  const Vec3i n = example.size();
+  const int longest = std::max({n.x, n.y, n.z});
+  int levels = 1;
+  while (levels < 8 && (longest >> (levels - 1)) > kQuiltSide) ++levels;
+  return levels;
+}
+
 /// Multiplies the prices of each example's patches, so that one that is used more than its share
 /// becomes dearer: examples that do not go together would else drive each other out.
 void balanceExamples(const PyramidLevel& level, const std::vector<SourcePart>& parts,
@@ -455,16 +560,23 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
         "(--stationary xy or xyz), or do not turn");
   }
   const std::vector<SourcePart> parts = sourceParts(examples, given);
-  const int levels = options.levels.value_or(defaultLevels(*examples[0]));
+  const bool quilted = quilts(given, parts);
+  const int levels =
+      options.levels.value_or(quilted ? quiltLevels(*examples[0]) : defaultLevels(*examples[0]));
   const float air = static_cast<float>(options.truncation);
   PyramidOptions pyramid{options.size, options.patch, kStride, options.truncation,
                          options.periodic};
   if (given.kept) pyramid.kept = &*given.kept;
   if (given.guide) pyramid.guide = &*given.guide;
 
+  const auto levelStage = [&](int l) {
+    return "optimising, level " + std::to_string(levels - l) + " of " + std::to_string(levels);
+  };
   SynthesisResult result;
   PyramidLevel level = makeLevel(parts, levels - 1, pyramid);
-  PyramidSources sources = startFromRandomBlocks(level, stationary, options);
+  progress.report(levelStage(levels - 1), 0);
+  PyramidSources sources = quilted ? startFromQuilt(level, stationary, options, progress)
+                                   : startFromRandomBlocks(level, stationary, options);
   Array3D<float> target;
   for (int l = levels - 1; l >= 0; --l) {
     if (l < levels - 1) {
@@ -476,6 +588,22 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
     const bool guided = !level.guideTarget.empty() && (l > 0 || levels == 1);
     target = gather(level, sources);
     pinTarget(level, air, target);
+    if (quilted) {
+      progress.report(levelStage(l), 0);
+      if (l > 0 || levels == 1) {
+        cutSeams(level, target, sources, progress);
+        target = gather(level, sources);
+        pinTarget(level, air, target);
+      }
+      if (l == 0 && !progress.cancelled()) {
+        result.matches = repairSeams(level, stationary, given, sources, target, progress);
+      }
+      if (progress.cancelled()) {
+        result.status = SynthesisStatus::Cancelled;
+        return result;
+      }
+      continue;
+    }
     Array3D<float> guideSource, guideTarget;
     if (guided) {
       const auto weight = static_cast<float>(std::sqrt(options.guideWeight));
@@ -507,9 +635,7 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
     NearestNeighborField field, reverse;
     Array3D<float> weight;
     for (int round = 0; round < rounds; ++round) {
-      progress.report(
-          "optimising, level " + std::to_string(levels - l) + " of " + std::to_string(levels),
-          static_cast<double>(round) / rounds);
+      progress.report(levelStage(l), static_cast<double>(round) / rounds);
       search.seed = Random(options.seed, kSearchStream).bits(l, round);
       search.iterations = round == 0 && l == levels - 1 ? kFirstIterations : kIterations;
       const NearestNeighborField previous =

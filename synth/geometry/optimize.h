@@ -17,14 +17,18 @@ struct OptimizeOptions {
   Vec3i size{0, 0, 0};  ///< of the result, samples; each component >= 1
   std::uint64_t seed = 0;
   int patch = 7;  ///< samples a side, 3..15; along a thinner axis its whole thickness
-  std::optional<int>
-      levels;      ///< 1..8; by default the coarsest has about 16 samples along the longest side
-  int rounds = 6;  ///< searches and votes a level, 1..100; the finest takes two thirds of them
+  /// 1..8; by default the coarsest has at most 40 samples along the longest side of the example,
+  /// and about 16 where it starts from small blocks.
+  std::optional<int> levels;
+  /// Searches and votes a level, 1..100, where it starts from small blocks; the finest takes two
+  /// thirds of them, and one that only repairs seams a sixth.
+  int rounds = 6;
   double truncation = 4;  ///< distances count up to here, in voxels of the level; > 0
   /// α of the completeness term (Granot et al., "Drop the GAN: in defense of patches nearest
   /// neighbors as single image generative models", CVPR 2022, section 4.1), in squared voxels: the
-  /// smaller, the more each part of the example gets its turn; > 0, infinite for none. It works on
-  /// all levels but the finest (which only adds detail), unless that is the only one.
+  /// smaller, the more each part of the example gets its turn; > 0, infinite for none. It works
+  /// where the start is from small blocks, on all levels but the finest (which only adds detail),
+  /// unless that is the only one.
   double completeness = 0.2;
   std::optional<StationaryAxes> stationary;  ///< found from the example by default
   /// Along which axes the result goes on at its opposite side, so that copies of it tile space.
@@ -43,15 +47,24 @@ struct OptimizeOptions {
   bool rotations = false;
 };
 
-/// Geometry synthesis by patch optimisation, coarse to fine: each level alternates a
-/// nearest-neighbour field of overlapping patches with a weighted vote (Kwatra et al., "Texture
-/// optimization for example-based synthesis", SIGGRAPH 2005, doi:10.1145/1073204.1073263; Simakov
-/// et al., "Summarizing visual data using bidirectional similarity", CVPR 2008,
-/// doi:10.1109/CVPR.2008.4587842). Each level ends with copying instead of averaging: each sample
-/// takes the origin on which the patches that cover it agree most, the borders of the copied pieces
-/// move to where both sides agree best (`refineSeams`; far on the coarse levels, so that few pieces
-/// are left), and the pieces to where they line up (`alignPieces`). At the end what has broken off
-/// is cleared away (`dropBrokenPieces`), and steps across borders are evened out (`evenSeams`).
+/// Geometry synthesis by patch optimisation, coarse to fine.
+///
+/// The coarsest level starts from large blocks of the example, each where it agrees best with those
+/// before, so that all parts get their turn, and a result of the example's own size is no copy of
+/// it (`quilt`). On each level the borders of the copied pieces move to where both sides agree best
+/// (`refineSeams`), and pieces to where they line up (`alignPieces`). On the finest, where a border
+/// shows all the same (`badSeams`), a nearest-neighbour field of overlapping patches and a weighted
+/// vote find what belongs there (Kwatra et al., "Texture optimization for example-based synthesis",
+/// SIGGRAPH 2005, doi:10.1145/1073204.1073263); what is verbatim stays so.
+///
+/// Where something is kept or guided, where the result is periodic, and of several examples or
+/// turned ones, the start is from small blocks, and each level alternates such a field of all
+/// patches with a vote (Simakov et al., "Summarizing visual data using bidirectional similarity",
+/// CVPR 2008, doi:10.1109/CVPR.2008.4587842), ends with copying, each sample the origin on which
+/// the patches that cover it agree most, and with seams cut as above.
+///
+/// At the end what has broken off is cleared away (`dropBrokenPieces`), and steps across borders
+/// are evened out (`evenSeams`).
 ///
 /// So each sample has the sign of the example at its origin; its value is the example's to the bit
 /// away from the borders of copied pieces, and nearly a distance beside them.
@@ -59,9 +72,9 @@ struct OptimizeOptions {
 /// Sides of the example's box that lie wholly outside the solid (a free-standing object with air
 /// around it) stay outside in the result; elsewhere the result is a window into something larger.
 ///
-/// Cost: O(samples of the result x patch^3 x rounds) for each level's PatchMatch; memory about 120
-/// bytes a sample of the result. The same bytes at any number of threads. Throws `InputError` for
-/// options out of range.
+/// Cost: O(samples of the result x patch^3 x rounds) for each level's PatchMatch at most; memory
+/// about 120 bytes a sample of the result. The same bytes at any number of threads. Throws
+/// `InputError` for options out of range.
 SynthesisResult synthesizeOptimized(const DistanceField& example, const OptimizeOptions& options,
                                     const Progress& progress = {});
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -79,6 +81,28 @@ TEST(Optimize, AnotherSeedGivesAnotherResult) {
   const SynthesisResult first = synthesizeOptimized(example, options);
   options.seed = 1;
   EXPECT_NE(first.field.values, synthesizeOptimized(example, options).field.values);
+}
+
+TEST(Optimize, OfTheExamplesSizeIsNoCopyOfIt) {
+  // A wall with bricks, air around it: it has a place of its own along every axis.
+  DistanceField wall = constant({40, 16, 40}, 0);
+  for (std::size_t s = 0; s < wall.values.count(); ++s) {
+    const Vec3i p = wall.values.ijk(s);
+    const int brick = (p.x / 5 + p.z / 4) % 3;
+    wall.values.values()[s] = static_cast<float>(std::max(
+        {std::abs(p.x - 19.5) - 16, std::abs(p.y - 7.5) - 2 - brick, std::abs(p.z - 19.5) - 16}));
+  }
+  for (const DistanceField& example : {balls({32, 32, 32}, 4, 1), wall}) {
+    const SynthesisResult result = synthesizeOptimized(example, sized(example.size()));
+    double both = 0, either = 0;
+    for (std::size_t s = 0; s < result.field.values.count(); ++s) {
+      const bool here = result.field.values.values()[s] < 0, there = example.values.values()[s] < 0;
+      both += here && there;
+      either += here || there;
+    }
+    EXPECT_GT(1 - both / either, 0.1);
+    EXPECT_LT(1 - both / either, 0.95);
+  }
 }
 
 TEST(Optimize, AConstantExampleGivesAConstant) {
@@ -157,9 +181,9 @@ TEST(Optimize, TakesThinExamples) {
 }
 
 TEST(Optimize, EndsEarlyInEachStageWhenCancelled) {
-  const DistanceField example = balls({34, 24, 24}, 4, 1);
+  const DistanceField example = balls({44, 24, 24}, 4, 1);
   for (const char* stage : {"level 1 of 2", "level 2 of 2", "matching", "seams"}) {
-    CancelAfter cancel(2, stage);
+    CancelAfter cancel(1, stage);
     EXPECT_EQ(synthesizeOptimized(example, sized({30, 20, 20}), cancel.progress()).status,
               SynthesisStatus::Cancelled)
         << stage;

@@ -1,0 +1,309 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/quilt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
+#include "core/random.h"
+
+namespace exemplar {
+namespace {
+
+constexpr std::uint32_t kQuiltStream = 0x0b73, kPhase = 0, kDraw = 1;
+/// Distances count up to here, in voxels of the level: the surface, not what is far from it.
+constexpr float kLimit = 2;
+/// What a sample beside the example's box costs, voxels: its seam will have to go elsewhere.
+constexpr double kBesideBox = 0.5;
+/// A block is compared at about this many samples.
+constexpr std::size_t kCompared = 4096;
+/// Offsets this near, of the example's longest side, count as the same.
+constexpr double kSameOffset = 1.0 / 16;
+/// How much of a result of the example's own size counts as in place already before it is begun.
+constexpr double kInPlace = 0.5;
+/// How much longer than the example a result is, from which its blocks may be longer, too.
+constexpr double kLonger = 1.5;
+/// How `variety` rises, and how often.
+constexpr double kMoreVariety = 1.5;
+constexpr int kRises = 4;
+/// How many quilts are made to keep the best of, and what it costs one that none of the example's
+/// surface is in it, in voxels.
+constexpr int kDraws = 4;
+constexpr double kUnused = 2;
+/// A copy moved by this much is a copy, samples.
+constexpr int kCopyReach = 2;
+
+int longestSide(const Vec3i& size) { return std::max({size.x, size.y, size.z}); }
+
+class Quilt {
+ public:
+  Quilt(const PyramidLevel& level, const QuiltOptions& options, double variety, int attempt)
+      : level_(level),
+        options_(options),
+        variety_(variety),
+        random_(Random(options.seed, kQuiltStream).bits(static_cast<std::uint64_t>(attempt)),
+                kQuiltStream),
+        example_(level.partSize[0] + level.low + level.high),
+        size_(level.framedTarget()),
+        near_(std::max(
+            1, static_cast<int>(std::lround(longestSide(level.partSize[0]) * kSameOffset)))),
+        sources_(size_),
+        shown_(size_),
+        placed_(size_),
+        use_(level.source.size()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int n = level.partSize[0][axis];
+      const double share = level.targetSize[axis] < kLonger * n ? options.block : options.longBlock;
+      block_[axis] = std::max(2, static_cast<int>(std::lround(n * share)));
+      overlap_[axis] =
+          std::max(1, static_cast<int>(std::lround(n * std::min(options.overlap, 1 - share))));
+    }
+    if (level.targetSize == level.partSize[0]) {
+      used_.emplace_back(Vec3i{0, 0, 0}, kInPlace * static_cast<double>(volume(size_)));
+    }
+    const Vec3i end = level.before + level.targetSize;
+    for (std::size_t s = 0; s < shown_.count(); ++s) {
+      const Vec3i p = shown_.ijk(s);
+      bool frame = false;
+      for (int axis = 0; axis < 3; ++axis) {
+        frame = frame || p[axis] < level.before[axis];
+        frame = frame || (level.high[axis] > 0 && p[axis] >= end[axis]);
+      }
+      if (!frame) continue;
+      shown_.values()[s] = kLimit;
+      placed_.values()[s] = 1;
+    }
+  }
+
+  PyramidSources run(const Progress& progress) {
+    std::uint64_t row = 0, block = 0;
+    const std::vector<int> z = joints(2, row++);
+    for (std::size_t k = 0; k + 1 < z.size(); ++k) {
+      const std::vector<int> y = joints(1, row++);
+      for (std::size_t j = 0; j + 1 < y.size(); ++j) {
+        const std::vector<int> x = joints(0, row++);
+        for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+          if (progress.cancelled()) return std::move(sources_);
+          place({x[i], y[j], z[k]}, {x[i + 1], y[j + 1], z[k + 1]}, block++);
+        }
+      }
+    }
+    return std::move(sources_);
+  }
+
+  /// The mean over blocks of how much each disagrees with what was there before, in voxels.
+  double disagreement() const { return disagreement_ / static_cast<double>(blocks_); }
+
+  /// The share of the example's surface samples that are nowhere in the result.
+  double unused() const {
+    std::int64_t unused = 0, all = 0;
+    for (std::size_t s = 0; s < use_.count(); ++s) {
+      if (std::abs(level_.source.values()[s]) >= 1) continue;
+      ++all;
+      unused += use_.values()[s] == 0;
+    }
+    return all == 0 ? 0 : static_cast<double>(unused) / static_cast<double>(all);
+  }
+
+ private:
+  /// Where a row's blocks begin and end along an axis: from a random phase, none very thin.
+  std::vector<int> joints(int axis, std::uint64_t row) const {
+    const int length = size_[axis], side = block_[axis];
+    std::vector<int> joints{0};
+    if (length > side) {
+      int next = 1 + static_cast<int>(random_.below(static_cast<std::uint32_t>(side), row, kPhase));
+      if (next < side / 3) next += side;
+      for (; length - next >= std::max(1, side / 3); next += side) joints.push_back(next);
+    }
+    // What the last joint left over may be more than the example has.
+    if (length - joints.back() > example_[axis]) joints.push_back((length + joints.back()) / 2);
+    joints.push_back(length);
+    return joints;
+  }
+
+  struct Known {
+    Vec3i p;
+    float value;
+  };
+  /// What is placed in and around a block: about kCompared samples of it.
+  std::vector<Known> knownAround(const Vec3i& first, const Vec3i& end) const {
+    const Vec3i low = max(first - overlap_, Vec3i{0, 0, 0}), high = min(end + overlap_, size_);
+    std::vector<Known> known;
+    for (int k = low.z; k < high.z; ++k) {
+      for (int j = low.y; j < high.y; ++j) {
+        for (int i = low.x; i < high.x; ++i) {
+          if (placed_(i, j, k)) known.push_back({{i, j, k}, shown_(i, j, k)});
+        }
+      }
+    }
+    if (known.size() <= kCompared) return known;
+    std::vector<Known> some;
+    for (std::size_t n = 0; n < kCompared; ++n) {
+      some.push_back(known[n * known.size() / kCompared]);
+    }
+    return some;
+  }
+
+  /// Where in the source a block may begin: low and high, inclusive.
+  std::pair<Vec3i, Vec3i> places(const Vec3i& first, const Vec3i& end) const {
+    Vec3i low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int length = end[axis] - first[axis];
+      low[axis] = 0;
+      high[axis] = std::max(0, example_[axis] - length);
+      if (options_.window[axis] < 0) continue;
+      const double middle = (first[axis] + end[axis]) / 2.0 * example_[axis] / size_[axis];
+      const int place = static_cast<int>(std::lround(middle - length / 2.0));
+      high[axis] = std::clamp(place + options_.window[axis], 0, high[axis]);
+      low[axis] = std::clamp(place - options_.window[axis], 0, high[axis]);
+    }
+    return {low, high};
+  }
+
+  double disagreementAt(const std::vector<Known>& known, const Vec3i& offset) const {
+    double sum = 0;
+    for (const Known& sample : known) {
+      const Vec3i q = sample.p + offset;
+      sum += level_.source.contains(q)
+                 ? std::abs(std::clamp(level_.source[q], -kLimit, kLimit) - sample.value)
+                 : kBesideBox;
+    }
+    return known.empty() ? 0 : sum / static_cast<double>(known.size());
+  }
+
+  /// How often the source of a block was used, over how often each part must be on average.
+  double useOf(const Vec3i& first, const Vec3i& end, const Vec3i& offset) const {
+    double used = 0, count = 0;
+    for (int k = first.z; k < end.z; k += 2) {
+      for (int j = first.y; j < end.y; j += 2) {
+        for (int i = first.x; i < end.x; i += 2) {
+          used += use_[use_.clamped(Vec3i{i, j, k} + offset)];
+          ++count;
+        }
+      }
+    }
+    const double share = static_cast<double>(made_) / static_cast<double>(use_.count());
+    return used / count / std::max(0.5, share);
+  }
+
+  /// The share of the result that has this offset, or nearly.
+  double shareOf(const Vec3i& offset) const {
+    double samples = 0;
+    for (const auto& [other, count] : used_) {
+      const Vec3i d = offset - other;
+      if (std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= near_) samples += count;
+    }
+    return samples / static_cast<double>(volume(size_));
+  }
+
+  void place(const Vec3i& first, const Vec3i& end, std::uint64_t block) {
+    const std::vector<Known> known = knownAround(first, end);
+    const auto [low, high] = places(first, end);
+    const Array3D<std::uint8_t> box(high - low + Vec3i{1, 1, 1});
+    std::vector<double> cost(box.count());
+    const auto offset = [&, low = low](std::size_t n) { return box.ijk(n) + low - first; };
+    parallelFor(0, cost.size(), 16, [&](std::size_t from, std::size_t to) {
+      for (std::size_t n = from; n < to; ++n) {
+        const Vec3i d = offset(n);
+        cost[n] =
+            disagreementAt(known, d) + options_.use * useOf(first, end, d) + variety_ * shareOf(d);
+      }
+    });
+    const double limit = *std::min_element(cost.begin(), cost.end()) * (1 + options_.slack) + 1e-6;
+    std::vector<std::size_t> good;
+    for (std::size_t n = 0; n < cost.size(); ++n) {
+      if (cost[n] <= limit) good.push_back(n);
+    }
+    const Vec3i d =
+        offset(good[random_.below(static_cast<std::uint32_t>(good.size()), block, kDraw)]);
+    used_.emplace_back(d, static_cast<double>(volume(end - first)));
+    disagreement_ += disagreementAt(known, d);
+    ++blocks_;
+    for (int k = first.z; k < end.z; ++k) {
+      for (int j = first.y; j < end.y; ++j) {
+        for (int i = first.x; i < end.x; ++i) {
+          const Vec3i p{i, j, k}, q = level_.source.clamped(p + d);
+          sources_[p] = q;
+          if (placed_[p]) continue;
+          placed_[p] = 1;
+          shown_[p] = std::clamp(level_.source[q], -kLimit, kLimit);
+          use_[q] += 1;
+          ++made_;
+        }
+      }
+    }
+  }
+
+  const PyramidLevel& level_;
+  const QuiltOptions& options_;
+  double variety_;
+  Random random_;
+  Vec3i example_, size_, block_, overlap_;
+  int near_;
+  PyramidSources sources_;
+  Array3D<float> shown_;
+  Array3D<std::uint8_t> placed_;
+  Array3D<float> use_;
+  std::size_t made_ = 0, blocks_ = 0;
+  double disagreement_ = 0;
+  std::vector<std::pair<Vec3i, double>> used_;  // offsets, and for how many samples
+};
+
+}  // namespace
+
+PyramidSources quilt(const PyramidLevel& level, const QuiltOptions& options,
+                     const Progress& progress) {
+  const bool same = level.targetSize == level.partSize[0];
+  double variety = options.variety, farthest = -1;
+  PyramidSources last;
+  for (int rise = 0; rise < kRises; ++rise, variety *= kMoreVariety) {
+    double least = std::numeric_limits<double>::infinity();
+    PyramidSources best;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      Quilt attempt(level, options, variety, rise * kDraws + draw);
+      PyramidSources sources = attempt.run(progress);
+      if (progress.cancelled()) return sources;
+      if (same && options.cut) options.cut(sources);
+      const double distance = same ? distanceToSource(level, sources, kCopyReach) : 1;
+      if (distance > farthest && best.empty()) last = sources;
+      farthest = std::max(farthest, distance);
+      if (distance < options.novelty) continue;
+      const double score = attempt.disagreement() + kUnused * attempt.unused();
+      if (score >= least) continue;
+      least = score;
+      best = std::move(sources);
+    }
+    if (!best.empty()) return best;
+  }
+  return last;
+}
+
+double distanceToSource(const PyramidLevel& level, const PyramidSources& sources, int reach) {
+  if (level.targetSize != level.partSize[0]) return 1;
+  const int side = 2 * reach + 1;
+  std::vector<double> distance(static_cast<std::size_t>(side) * side * side);
+  parallelFor(0, distance.size(), 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t m = from; m < to; ++m) {
+      const int at = static_cast<int>(m);
+      const Vec3i shift =
+          Vec3i{at % side, at / side % side, at / side / side} - Vec3i{reach, reach, reach};
+      std::int64_t both = 0, either = 0;
+      for (std::size_t s = 0; s < sources.count(); ++s) {
+        const Vec3i q = sources.ijk(s) + shift;
+        if (!level.source.contains(q)) continue;
+        const bool here = level.source[sources.values()[s]] < 0, there = level.source[q] < 0;
+        both += here && there;
+        either += here || there;
+      }
+      distance[m] = either == 0 ? 0 : 1 - static_cast<double>(both) / static_cast<double>(either);
+    }
+  });
+  return *std::min_element(distance.begin(), distance.end());
+}
+
+}  // namespace exemplar
