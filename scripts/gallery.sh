@@ -21,11 +21,6 @@ done
 # The report of a comparison, as a browser shows it.
 if [ $# -eq 0 ] && command -v chromium >/dev/null; then
   echo "== report"
-  "$exemplar" compare scenes/chainmail.toml --resolution 48 -o out/gallery/report
-  profile=$(mktemp -d)
-  chromium --headless --no-sandbox --disable-gpu --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic \
-    --no-first-run --disable-background-networking --disable-component-update --disable-sync --user-data-dir="$profile" \
-    --hide-scrollbars --window-size=1200,1640 --timeout=20000 --virtual-time-budget=8000 \
-    --screenshot=docs/gallery/report.png "file://$PWD/out/gallery/report/report.html#origins" 2>/dev/null
-  rm -rf "$profile"
+  "$exemplar" compare scenes/chainmail.toml --resolution 48 --seeds 2 -o out/gallery/report
+  node scripts/report_picture.mjs out/gallery/report/report.html docs/gallery/report.png '#origins'
 fi
