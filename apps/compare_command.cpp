@@ -106,10 +106,12 @@ Json makeRun(const Options& options, const Example& example, const Vec3d& scale,
   if (result.violations) {
     run["adjacency_pairs"] = *result.pairs;
     run["adjacency_violations"] = *result.violations;
-    run["unknown_blocks"] = *result.unknownBlocks;
+    if (result.unknownBlocks) run["unknown_blocks"] = *result.unknownBlocks;
   }
   MeasureInput input;
-  input.origins = &result.origins;
+  // Pieces are what they are: they have no samples to come from.
+  const Origins* origins = result.origins.count() > 0 ? &result.origins : nullptr;
+  input.origins = origins;
   input.mesh = &result.mesh;
   terminal.step("measuring " + name);
   run["figures"] =
@@ -119,18 +121,18 @@ Json makeRun(const Options& options, const Example& example, const Vec3d& scale,
   const Image8 image = render(result.mesh, picture, terminal.progress());
   terminal.stopIfInterrupted();
   terminal.step("marking " + name);
-  const ResultParts parts = resultParts(result.mesh, &example.field, &result.field, &result.origins,
+  const ResultParts parts = resultParts(result.mesh, &example.field, &result.field, origins,
                                         picture, kManyViews, terminal.progress());
   terminal.stopIfInterrupted();
   run["marks"] = toJson(parts.marks);
   run["mesh"] = name + ".glb";
   run["picture"] = name + ".png";
   run["field"] = name + ".vdb";
-  run["origins"] = name + "-origins.vdb";
+  if (origins) run["origins"] = name + "-origins.vdb";
   writeMesh(folder / (name + ".glb"), result.mesh, options.reading.mesh);
   writePng(folder / (name + ".png"), image);
   writeVdb(folder / (name + ".vdb"), result.field);
-  writeOriginsVdb(folder / (name + "-origins.vdb"), result.origins, result.field);
+  if (origins) writeOriginsVdb(folder / (name + "-origins.vdb"), result.origins, result.field);
   if (!parts.view.empty()) {
     run["view"] = name + "-view.json";
     writeFile(folder / (name + "-view.json"), parts.view);
@@ -239,6 +241,8 @@ void compare(const Options& options) {
         "model keeps the adjacencies of the example's blocks exactly, up to the tolerance within "
         "which blocks are one label; blocks and optimize keep none exactly and trade mismatch off "
         "everywhere.",
+        "model takes a bundled scene of pieces by its pieces, whose adjacencies are then counted; "
+        "of anything else it takes blocks of samples.",
         "model's results are whole blocks, so their size may differ by less than half a block.",
         "seconds are of synthesis alone, on all cores in use."}},
       {"figures", Json::array()},

@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "apps/command.h"
+#include "apps/label_example.h"
 #include "apps/terminal.h"
 #include "apps/words.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "measure/mesh_result.h"
 #include "reconstruct/reconstruct.h"
 #include "synth/geometry/blocks.h"
 #include "synth/geometry/optimize.h"
@@ -59,6 +61,27 @@ void takeGeometry(SynthesisResult made, ComparedResult& result) {
   result.origins = std::move(made.origins);
 }
 
+/// Whether model synthesis made anything; else why not.
+bool takeModel(const ModelResult& made, ComparedResult& result) {
+  switch (made.status) {
+    case ModelStatus::Cancelled:
+      result.status = "cancelled";
+      break;
+    case ModelStatus::Impossible:
+      result.status = "impossible";
+      result.why = made.conflict.text;
+      break;
+    case ModelStatus::Unfinished:
+      result.status = "unfinished";
+      result.why = "no result within the budget, and none is proved impossible";
+      break;
+    case ModelStatus::Complete:
+      result.status = "complete";
+      break;
+  }
+  return made.status == ModelStatus::Complete;
+}
+
 /// Model synthesis by blocks cut as `cut` says.
 void runModel(const Example& example, const FieldBlocksOptions& cut, const Vec3d& scale,
               std::uint64_t seed, const Progress& progress, ComparedResult& result) {
@@ -78,24 +101,36 @@ void runModel(const Example& example, const FieldBlocksOptions& cut, const Vec3d
   }
   const ModelResult made =
       synthesizeModel(std::span(&blocks.grid, 1), blocks.adjacency, options, progress);
-  switch (made.status) {
-    case ModelStatus::Cancelled:
-      return;
-    case ModelStatus::Impossible:
-      result.status = "impossible";
-      result.why = made.conflict.text;
-      return;
-    case ModelStatus::Unfinished:
-      result.status = "unfinished";
-      result.why = "no result within the budget, and none is proved impossible";
-      return;
-    case ModelStatus::Complete:
-      break;
-  }
-  result.status = "complete";
+  if (!takeModel(made, result)) return;
   PlacedBlocks placed = placeBlocks(example.field, blocks, made.grid().cells);
   result.field = std::move(placed.field);
   result.origins = std::move(placed.origins);
+}
+
+/// Model synthesis of a scene that is made of pieces on a grid, by these; its result is sampled
+/// where the field of one by geometry synthesis would stand.
+void runPieces(const Example& example, const Vec3d& scale, std::uint64_t seed,
+               const Progress& progress, ComparedResult& result) {
+  const LabelExample pieces = loadLabelExample(example.path, {}, progress);
+  result.status = "cancelled";
+  if (progress.cancelled()) return;
+  ModelOptions options;
+  options.size = scaledSize(pieces.grid.size(), scale, "cells");
+  result.labels = pieces.grid.labelCount();
+  options.seed = seed;
+  const Stopwatch synthesis;
+  const ModelResult made = synthesizeModel(pieces.grid, options, progress);
+  if (!takeModel(made, result)) return;
+  result.seconds = synthesis.seconds();
+  result.mesh = labelsToMesh(made.grid(), pieces);
+  Vec3i size;
+  for (int axis = 0; axis < 3; ++axis)
+    size[axis] = static_cast<int>(std::lround(
+        made.grid().size()[axis] * pieces.grid.cellSize[axis] / example.field.voxelSize));
+  result.field = sampleMeshResult(result.mesh, example.field, {.size = size}, progress);
+  const AdjacencyViolations violations = findViolations(made.grid(), pieces.grid);
+  result.pairs = violations.pairs;
+  result.violations = violations.count;
 }
 
 /// Counts the pairs of blocks that the example does not show: for every engine in the same way, by
@@ -166,6 +201,9 @@ ComparedResult runEngine(const EngineSettings& settings, const Example& example,
       take(settings, "completeness", options.completeness);
       take(settings, "truncation", options.truncation);
       takeGeometry(synthesizeOptimized(example.field, options, progress), result);
+    } else if (settings.engine == ComparedEngine::Model && settings.values.empty() &&
+               isLabelExample(example.path)) {
+      runPieces(example, scale, seed, progress, result);
     } else {
       FieldBlocksOptions cut =
           settings.engine == ComparedEngine::Overlap ? kOverlapping : FieldBlocksOptions{};
@@ -182,14 +220,24 @@ ComparedResult runEngine(const EngineSettings& settings, const Example& example,
     result.status = "refused";
     result.why = error.what();
   }
-  result.seconds = stopwatch.seconds();
+  // Of pieces without the sampling, which is for the measures alone.
+  if (result.seconds == 0) result.seconds = stopwatch.seconds();
   if (result.status != "complete") return result;
-  result.mesh = reconstructSurface(result.field, result.origins,
-                                   {example.field, example.mesh ? &*example.mesh : nullptr},
-                                   {.blend = 0}, progress)
-                    .mesh;
+  if (result.mesh.triangles.empty()) {
+    try {
+      result.mesh = reconstructSurface(result.field, result.origins,
+                                       {example.field, example.mesh ? &*example.mesh : nullptr},
+                                       {.blend = 0}, progress)
+                        .mesh;
+    } catch (const InputError& error) {
+      // All solid or all empty: a finding, too.
+      result.status = "refused";
+      result.why = std::string("the result is nothing to show: ") + error.what();
+      return result;
+    }
+  }
   if (peak) result.peakBytes = peakResidentBytes();
-  countViolations(example, progress, result);
+  if (!result.violations) countViolations(example, progress, result);
   return result;
 }
 

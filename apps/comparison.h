@@ -20,7 +20,8 @@ namespace exemplar {
 enum class ComparedEngine {
   Blocks,    ///< geometry synthesis by best-matching blocks (Lagae 2004)
   Optimize,  ///< geometry synthesis by patch optimisation
-  Model,     ///< model synthesis on blocks of the same distance field (`voxelize/field_blocks.h`)
+  Model,     ///< model synthesis: of a bundled scene of pieces on these, of anything else on blocks
+             ///< of the same distance field (`voxelize/field_blocks.h`)
   Overlap,   ///< the same on blocks that overlap, for examples without a grid
 };
 const char* engineName(ComparedEngine engine);
@@ -41,13 +42,14 @@ struct ComparedResult {
   std::string status;  ///< "complete", "impossible", "unfinished", "refused" or "cancelled"
   std::string why;     ///< where it is not complete
   DistanceField field;
-  Origins origins;
+  Origins origins;  ///< none of pieces
   TriangleMesh mesh;
   double seconds = 0;                      ///< of synthesis alone
   std::optional<std::uint64_t> peakBytes;  ///< resident while it ran, surface included
   std::optional<std::int64_t> labels;      ///< Model, Overlap: kinds of blocks
-  /// With the example cut into blocks that tile, and the result read in these: pairs of neighbors,
-  /// those of them that the example does not show, and the share of blocks that it has not.
+  /// Pairs of neighbors and those of them that the example does not show: of pieces on their grid;
+  /// else with the example cut into blocks that tile, and the result read in these, of which it
+  /// says the share that the example has not.
   std::optional<std::int64_t> pairs, violations;
   std::optional<double> unknownBlocks;
 };

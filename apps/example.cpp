@@ -4,6 +4,7 @@
 #include "apps/example.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/command.h"
 #include "apps/terminal.h"
@@ -26,10 +27,23 @@ std::string triangleCount(const TriangleMesh& mesh) {
   return withThousands(static_cast<long long>(mesh.triangles.size())) + " triangles";
 }
 
+/// Samples along a scene's longest side: a whole number to each of its cells, where it has any, so
+/// that what is equal in the scene is equal in the field.
+int usualResolution(const Scene& scene) {
+  if (!scene.cell) return scene.resolution;
+  const Vec3d size = scene.box.size();
+  int longest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (size[axis] > size[longest]) longest = axis;
+  const int cells =
+      std::max(1, static_cast<int>(std::lround(size[longest] / (*scene.cell)[longest])));
+  return cells * std::max(1, static_cast<int>(std::lround(1.0 * scene.resolution / cells)));
+}
+
 Example loadScene(Example example, const ExampleOptions& options, const Progress& progress) {
   Scene scene = readScene(findScene(example.path.string()), {.seed = options.sceneSeed});
   example.field = meshToSdf(scene.mesh,
-                            {.resolution = options.resolution.value_or(scene.resolution),
+                            {.resolution = options.resolution.value_or(usualResolution(scene)),
                              .box = scene.box,
                              .padding = options.padding.value_or(0),
                              .halfWidth = kExampleHalfWidth},

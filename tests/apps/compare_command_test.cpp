@@ -34,7 +34,7 @@ class CompareCommand : public testing::Test {
   CommandResult compare(const std::string& more) const {
     return runExemplar(
         "compare hills.pgm -o made --cell-size 1 --height-scale 0.2 --size 120x90 --samples 1 " +
-            more,
+            more + (more.find("--resolution") == std::string::npos ? " --resolution 32" : ""),
         folder_.path());
   }
   fs::path file(const std::string& name) const { return folder_ / "made" / name; }
@@ -117,6 +117,22 @@ TEST_F(CompareCommand, CountsViolationsOfEveryEngine) {
     }
     EXPECT_GT(run.at("peak_memory_bytes").get<std::int64_t>(), 1'000'000);
   }
+}
+
+TEST_F(CompareCommand, TakesAScenesPiecesAsTheyAre) {
+  const CommandResult outcome =
+      runExemplar("compare " + std::string(EXEMPLAR_SOURCE_DIR) +
+                      "/scenes/gears.toml -o made --resolution 24 --seeds 1 --engines model --size "
+                      "120x90 --samples 1",
+                  folder_.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json run = read("compare.json").at("runs")[0];
+  ASSERT_EQ(run.at("status"), "complete");
+  EXPECT_GT(run.at("labels"), 10);
+  EXPECT_EQ(run.at("adjacency_violations"), 0);
+  EXPECT_TRUE(run.at("figures").at("likeness").at("lp_dense").is_number());
+  EXPECT_TRUE(fs::exists(file("model-0.glb")));
+  EXPECT_FALSE(fs::exists(file("model-0-origins.vdb")));  // pieces have none
 }
 
 TEST_F(CompareCommand, NeverMakesAFinishedRunAgain) {
