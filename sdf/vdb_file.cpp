@@ -27,10 +27,7 @@ namespace fs = std::filesystem;
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-// Metadata of ours: the box of samples, which may reach beyond the active voxels, and the field's
-// truncation, which a full field's background does not tell.
-constexpr const char* kBoxMin = "exemplar_box_min";
-constexpr const char* kBoxMax = "exemplar_box_max";
+// Metadata of ours: the field's truncation, which a full field's background does not tell.
 constexpr const char* kTruncation = "exemplar_truncation";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
@@ -58,14 +55,7 @@ typename Grid::Ptr firstGrid(const openvdb::GridPtrVec& grids, const std::string
 
 // The box that samples are read from: ours where the file has it, else that of the active voxels.
 CoordBBox sampleBox(const openvdb::GridBase& grid, const fs::path& path) {
-  CoordBBox box = grid.evalActiveVoxelBoundingBox();
-  const auto low = grid.getMetadata<openvdb::Vec3IMetadata>(kBoxMin);
-  const auto high = grid.getMetadata<openvdb::Vec3IMetadata>(kBoxMax);
-  if (low && high) {
-    const CoordBBox stated{Coord(low->value()), Coord(high->value())};
-    if (!stated.empty() && (box.empty() || stated.isInside(box))) box = stated;
-  }
-  if (box.empty()) fail(path, "the grid \"" + grid.getName() + "\" has no active voxels");
+  const CoordBBox box = statedBox(grid, path);
   double bytes = 4;
   for (int axis = 0; axis < 3; ++axis)
     bytes *= double(box.max()[axis]) - double(box.min()[axis]) + 1;
@@ -161,8 +151,7 @@ void place(Grid& grid, const DistanceField& field) {
   auto transform = openvdb::math::Transform::createLinearTransform(field.voxelSize);
   transform->postTranslate({field.origin.x, field.origin.y, field.origin.z});
   grid.setTransform(transform);
-  grid.insertMeta(kBoxMin, openvdb::Vec3IMetadata({0, 0, 0}));
-  grid.insertMeta(kBoxMax, openvdb::Vec3IMetadata({size.x - 1, size.y - 1, size.z - 1}));
+  stateBox(grid, size);
   grid.setCreator("exemplar");
 }
 
@@ -222,9 +211,8 @@ void writeOriginsVdb(const fs::path& path, const Origins& origins, const Distanc
   sources->setName("source");
   place(*cells, field);
   place(*sources, field);
-  const Vec3i size = origins.size();
-  for (const auto& grid : {openvdb::GridBase::Ptr(cells), openvdb::GridBase::Ptr(sources)})
-    grid->insertMeta(kBoxMax, openvdb::Vec3IMetadata({size.x - 1, size.y - 1, size.z - 1}));
+  stateBox(*cells, origins.size());
+  stateBox(*sources, origins.size());
   auto cell = cells->getAccessor();
   auto source = sources->getAccessor();
   for (std::size_t s = 0; s < origins.count(); ++s) {

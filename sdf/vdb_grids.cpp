@@ -26,6 +26,9 @@ namespace fs = std::filesystem;
 // versions, 1 byte for "has offsets") and how long it is.
 constexpr std::size_t kIdBegin = 21, kIdLength = 36;
 
+constexpr const char* kBoxMin = "exemplar_box_min";
+constexpr const char* kBoxMax = "exemplar_box_max";
+
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw InputError(path.string() + ": " + what);
 }
@@ -110,6 +113,25 @@ void withVdbGrids(const fs::path& path,
     std::replace(what.begin(), what.end(), '\n', ' ');
     fail(path, "not a whole OpenVDB file (" + what + ")");
   }
+}
+
+openvdb::math::CoordBBox statedBox(const openvdb::GridBase& grid,
+                                   const std::filesystem::path& path) {
+  using openvdb::Coord, openvdb::CoordBBox;
+  CoordBBox box = grid.evalActiveVoxelBoundingBox();
+  const auto low = grid.getMetadata<openvdb::Vec3IMetadata>(kBoxMin);
+  const auto high = grid.getMetadata<openvdb::Vec3IMetadata>(kBoxMax);
+  if (low && high) {
+    const CoordBBox stated{Coord(low->value()), Coord(high->value())};
+    if (!stated.empty() && (box.empty() || stated.isInside(box))) box = stated;
+  }
+  if (box.empty()) fail(path, "the grid \"" + grid.getName() + "\" has no active voxels");
+  return box;
+}
+
+void stateBox(openvdb::GridBase& grid, const Vec3i& size) {
+  grid.insertMeta(kBoxMin, openvdb::Vec3IMetadata({0, 0, 0}));
+  grid.insertMeta(kBoxMax, openvdb::Vec3IMetadata({size.x - 1, size.y - 1, size.z - 1}));
 }
 
 }  // namespace exemplar

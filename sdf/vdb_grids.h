@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <functional>
 
+#include "core/vec.h"
+
 namespace exemplar {
 
 // OpenVDB files as grids of OpenVDB's own, for what reads and writes grids of one kind. Slow to
@@ -21,5 +23,14 @@ void writeVdbGrids(const std::filesystem::path& path, const openvdb::GridCPtrVec
 /// `InputError` naming the file.
 void withVdbGrids(const std::filesystem::path& path,
                   const std::function<void(const openvdb::GridPtrVec&)>& use);
+
+/// The box that a grid speaks of, both ends included: the one that `stateBox` wrote where the file
+/// has it and all active voxels lie within, else that of the active voxels. Throws `InputError`
+/// naming the file where that is empty.
+openvdb::math::CoordBBox statedBox(const openvdb::GridBase& grid,
+                                   const std::filesystem::path& path);
+
+/// States that a grid is a box of `size` from (0, 0, 0), also where it ends in background.
+void stateBox(openvdb::GridBase& grid, const Vec3i& size);
 
 }  // namespace exemplar

@@ -24,10 +24,8 @@ namespace fs = std::filesystem;
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-// Metadata of ours: the box of cells, which may reach beyond those that are not 0, and a line for
-// each label, "R G B OPACITY NAME", with a line "$..." for each of its objects.
-constexpr const char* kBoxMin = "exemplar_box_min";
-constexpr const char* kBoxMax = "exemplar_box_max";
+// Metadata of ours: a line for each label, "R G B OPACITY NAME", with a line "$..." for each of its
+// objects.
 constexpr const char* kLooks = "exemplar_labels";
 constexpr const char* kScene = "exemplar_scene";
 
@@ -78,14 +76,7 @@ std::vector<LabelLook> looksFromText(const std::string& text, const std::string&
 }
 
 CoordBBox boxOf(const openvdb::Int32Grid& grid, const fs::path& path) {
-  CoordBBox box = grid.evalActiveVoxelBoundingBox();
-  const auto low = grid.getMetadata<openvdb::Vec3IMetadata>(kBoxMin);
-  const auto high = grid.getMetadata<openvdb::Vec3IMetadata>(kBoxMax);
-  if (low && high) {
-    const CoordBBox stated{Coord(low->value()), Coord(high->value())};
-    if (!stated.empty() && (box.empty() || stated.isInside(box))) box = stated;
-  }
-  if (box.empty()) fail(path, "the grid \"" + grid.getName() + "\" has no active voxels");
+  const CoordBBox box = statedBox(grid, path);
   double cells = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const double side = double(box.max()[axis]) - double(box.min()[axis]) + 1;
@@ -170,8 +161,7 @@ void writeLabelsVdb(const fs::path& path, const LabelGrid& grid) {
   transform->postTranslate(openvdb::Vec3d(o.x, o.y, o.z));
   out->setTransform(transform);
   const Vec3i size = grid.size();
-  out->insertMeta(kBoxMin, openvdb::Vec3IMetadata({0, 0, 0}));
-  out->insertMeta(kBoxMax, openvdb::Vec3IMetadata({size.x - 1, size.y - 1, size.z - 1}));
+  stateBox(*out, size);
   out->insertMeta(kLooks, openvdb::StringMetadata(looksText(grid)));
   if (!grid.name.empty()) out->insertMeta(kScene, openvdb::StringMetadata(grid.name));
   auto accessor = out->getAccessor();
