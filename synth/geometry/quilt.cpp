@@ -20,8 +20,9 @@ constexpr std::uint32_t kQuiltStream = 0x0b73, kPhase = 0, kDraw = 1;
 constexpr float kLimit = 2;
 /// What a sample beside the example's box costs, voxels: its seam will have to go elsewhere.
 constexpr double kBesideBox = 0.5;
-/// A block is compared at about this many samples.
-constexpr std::size_t kCompared = 4096;
+/// A block is compared at about this many samples, and where it has more places to come from than
+/// kPlaces (a quilt on a fine level), at as many fewer, but at least kFewest.
+constexpr std::size_t kCompared = 4096, kPlaces = 40000, kFewest = 64;
 /// Offsets this near, of the example's longest side, count as the same.
 constexpr double kSameOffset = 1.0 / 16;
 /// How much of a result of the example's own size counts as in place already before it is begun.
@@ -131,7 +132,8 @@ class Quilt {
     float value;
   };
   /// What is placed in and around a block: about kCompared samples of it.
-  std::vector<Known> knownAround(const Vec3i& first, const Vec3i& end) const {
+  std::vector<Known> knownAround(const Vec3i& first, const Vec3i& end, std::size_t places) const {
+    const std::size_t compared = std::max(kFewest, kCompared * kPlaces / std::max(kPlaces, places));
     const Vec3i low = max(first - overlap_, Vec3i{0, 0, 0}), high = min(end + overlap_, size_);
     std::vector<Known> known;
     for (int k = low.z; k < high.z; ++k) {
@@ -141,10 +143,10 @@ class Quilt {
         }
       }
     }
-    if (known.size() <= kCompared) return known;
+    if (known.size() <= compared) return known;
     std::vector<Known> some;
-    for (std::size_t n = 0; n < kCompared; ++n) {
-      some.push_back(known[n * known.size() / kCompared]);
+    for (std::size_t n = 0; n < compared; ++n) {
+      some.push_back(known[n * known.size() / compared]);
     }
     return some;
   }
@@ -179,9 +181,11 @@ class Quilt {
   /// How often the source of a block was used, over how often each part must be on average.
   double useOf(const Vec3i& first, const Vec3i& end, const Vec3i& offset) const {
     double used = 0, count = 0;
-    for (int k = first.z; k < end.z; k += 2) {
-      for (int j = first.y; j < end.y; j += 2) {
-        for (int i = first.x; i < end.x; i += 2) {
+    int step = 2;
+    while (volume(end - first) > static_cast<std::int64_t>(kCompared) * step * step * step) ++step;
+    for (int k = first.z; k < end.z; k += step) {
+      for (int j = first.y; j < end.y; j += step) {
+        for (int i = first.x; i < end.x; i += step) {
           used += use_[use_.clamped(Vec3i{i, j, k} + offset)];
           ++count;
         }
@@ -202,9 +206,9 @@ class Quilt {
   }
 
   void place(const Vec3i& first, const Vec3i& end, std::uint64_t block) {
-    const std::vector<Known> known = knownAround(first, end);
     const auto [low, high] = places(first, end);
     const Array3D<std::uint8_t> box(high - low + Vec3i{1, 1, 1});
+    const std::vector<Known> known = knownAround(first, end, box.count());
     std::vector<double> cost(box.count());
     const auto offset = [&, low = low](std::size_t n) { return box.ijk(n) + low - first; };
     parallelFor(0, cost.size(), 16, [&](std::size_t from, std::size_t to) {
