@@ -18,6 +18,7 @@
 #include "core/memory.h"
 #include "measure/collapse.h"
 #include "measure/figures.h"
+#include "measure/novelty.h"
 #include "measure/occupancy.h"
 #include "mesh/mesh_file.h"
 #include "reconstruct/copy_triangles.h"
@@ -87,15 +88,17 @@ SynthesisResult synthesize(const Options& options, const Examples& examples, con
   return synthesizeBlocks(examples.first().field, blocks, terminal.progress());
 }
 
-/// Says so where the result is all solid or all empty, and what to change.
-void warnOfCollapse(const DistanceField& example, const DistanceField& result, Json& stats,
+/// Says so where the result is all solid, all empty or one part repeated, and what to change.
+void warnOfCollapse(const Examples& examples, const SynthesisResult& made, Json& stats,
                     Terminal& terminal) {
+  const DistanceField &example = examples.first().field, &result = made.field;
   const Occupancy before(example), after(result);
   CollapseSigns signs;
   signs.exampleOccupancy = solidFraction(before);
   signs.resultOccupancy = solidFraction(after);
   signs.exampleSurface = surfaceDensity(before);
   signs.resultSurface = surfaceDensity(after);
+  if (examples.all.size() == 1) signs.usedShare = surfaceUse(before, made.origins).usedShare;
   const Collapse collapse = detectCollapse(signs);
   stats["collapse"] = collapseName(collapse);
   if (collapse == Collapse::None) return;
@@ -201,7 +204,7 @@ void synth(const Options& options) {
   SynthesisResult result = synthesize(options, examples, size, stats, terminal);
   if (result.status == SynthesisStatus::Cancelled) throw Interrupted();
   stats["matches"] = result.matches;
-  warnOfCollapse(example.field, result.field, stats, terminal);
+  warnOfCollapse(examples, result, stats, terminal);
   if (options.control.detail > 1) {
     terminal.step("pulling finer detail");
     examples.refine(options.control.detail, options.reading, terminal.progress());

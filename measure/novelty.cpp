@@ -196,6 +196,12 @@ void requireOriginsFit(const Origins& origins, const DistanceField& example,
                        "; give the example that the result was made from");
 }
 
+SurfaceUse surfaceUse(const Occupancy& example, const Origins& origins, int exampleIndex) {
+  const Uses uses = countUses(origins, example, exampleIndex);
+  if (uses.total == 0 && uses.surface > 1) return {0, 0};
+  return {uses.most > 0 ? uses.entropy / uses.most : 1, std::exp(uses.entropy - uses.most)};
+}
+
 Novelty measureNovelty(const DistanceField& example, const DistanceField& result,
                        const Origins* origins, int exampleIndex) {
   requireSameVoxels(example, result);
@@ -207,13 +213,9 @@ Novelty measureNovelty(const DistanceField& example, const DistanceField& result
 
   requireOriginsFit(*origins, example, result, exampleIndex);
   novelty.verbatimRun = verbatimRun(*origins, example);
-  const Uses uses = countUses(*origins, e, exampleIndex);
-  if (uses.total == 0 && uses.surface > 1) {
-    novelty.use = novelty.usedShare = 0;
-  } else {
-    novelty.use = uses.most > 0 ? uses.entropy / uses.most : 1;
-    novelty.usedShare = std::exp(uses.entropy - uses.most);
-  }
+  const SurfaceUse used = surfaceUse(e, *origins, exampleIndex);
+  novelty.use = used.use;
+  novelty.usedShare = used.usedShare;
   return novelty;
 }
 

@@ -58,6 +58,13 @@ struct Novelty {
   std::optional<double> usedShare;
 };
 
+/// How evenly the example's surface was used: `Novelty::use` and `usedShare`. O(cells), quick.
+/// Origins are within `example` (`requireOriginsFit`).
+struct SurfaceUse {
+  double use = 0, usedShare = 0;
+};
+SurfaceUse surfaceUse(const Occupancy& example, const Origins& origins, int exampleIndex = 0);
+
 /// Novelty from the solid and, where there are any, the origins (same size as the result; `nullptr`
 /// if none). Origins in examples other than number `exampleIndex` count for the regions, not for
 /// the use. O(cells). Throws `InputError` for voxel sizes or numbers of origins that do not fit,

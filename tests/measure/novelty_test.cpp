@@ -150,6 +150,13 @@ TEST(Use, IsTheEntropyOfTheSurfaceCells) {
   const Novelty one = measured([](const Vec3i& p) { return Origin({3, 3, p.z}); });
   EXPECT_NEAR(*one.use, 0, 1e-12);
   EXPECT_NEAR(*one.usedShare, 1.0 / 256, 1e-12);
+  const Occupancy solid(example);
+  EXPECT_EQ(surfaceUse(solid, makeOrigins({16, 16, 16},
+                                          [](const Vec3i& p) {
+                                            return Origin({3, 3, p.z});
+                                          }))
+                .usedShare,
+            *one.usedShare);
   // None of it.
   const Novelty none = measured([](const Vec3i& p) { return Origin({p.x, p.y, 14}); });
   EXPECT_EQ(none.use, 0);
