@@ -230,9 +230,9 @@ ComparedResult runEngine(const EngineSettings& settings, const Example& example,
                                        {.blend = 0}, progress)
                         .mesh;
     } catch (const InputError& error) {
-      // All solid or all empty: a finding, too.
-      result.status = "refused";
-      result.why = std::string("the result is nothing to show: ") + error.what();
+      // All solid or all air: a finding, too.
+      result.status = "empty";
+      result.why = error.what();
       return result;
     }
   }

@@ -39,7 +39,7 @@ EngineSettings parseEngine(const std::string& text);
 
 /// What one engine made of the example with one seed.
 struct ComparedResult {
-  std::string status;  ///< "complete", "impossible", "unfinished", "refused" or "cancelled"
+  std::string status;  ///< "complete", "empty", "impossible", "unfinished", "refused", "cancelled"
   std::string why;     ///< where it is not complete
   DistanceField field;
   Origins origins;  ///< none of pieces
