@@ -36,6 +36,8 @@ constexpr int kFirstIterations = 8, kIterations = 2;
 constexpr int kStride = 2;
 /// A quilt is made where the example has at most this many samples along its longest side.
 constexpr int kQuiltSide = 40;
+/// Ground that rises by more than this from one side to the other slopes, voxels.
+constexpr double kSlope = 1;
 /// How far parts of an object that keeps its size may move along it, of its length.
 constexpr double kObjectShift = 0.16;
 /// Seams whose two sides differ by more than this, in voxels, are optimised away.
@@ -451,11 +453,47 @@ int defaultLevels(const DistanceField& example) {
   return levels;
 }
 
+/// Whether an example is ground: solid all over its lowest layer, air all over its highest.
+bool isGround(const DistanceField& example) {
+  const Vec3i n = example.size();
+  for (int j = 0; j < n.y; ++j) {
+    for (int i = 0; i < n.x; ++i) {
+      if (!(example.values(i, j, 0) < 0) || example.values(i, j, n.z - 1) < 0) return false;
+    }
+  }
+  return true;
+}
+
+/// How much higher a ground is at one side than at the opposite one, along x or y, whichever is
+/// more: means over an eighth of its length, voxels.
+double slopeOf(const DistanceField& ground) {
+  const Vec3i n = ground.size();
+  double slope = 0;
+  for (const int axis : {0, 1}) {
+    const int reach = std::max(1, n[axis] / 8);
+    std::int64_t low = 0, high = 0;
+    for (std::size_t s = 0; s < ground.values.count(); ++s) {
+      if (!(ground.values.values()[s] < 0)) continue;
+      const int at = ground.values.ijk(s)[axis];
+      low += at < reach;
+      high += at >= n[axis] - reach;
+    }
+    const double columns = static_cast<double>(reach) * n[1 - axis];
+    slope = std::max(slope, std::abs(static_cast<double>(high - low)) / columns);
+  }
+  return slope;
+}
+
 /// Whether the result starts from large blocks of the example. What must be somewhere (kept,
 /// guided, meeting its other side) and examples that meet start from small ones, which are
-/// optimised on all levels.
-bool quilts(const OptimizeOptions& options, const std::vector<SourcePart>& parts) {
-  return parts.size() == 1 && !options.kept && !options.guide && !options.periodic.any();
+/// optimised on all levels. So does more of a ground that slopes: the ends of large blocks of it
+/// would meet in cliffs.
+bool quilts(const OptimizeOptions& options, const std::vector<SourcePart>& parts,
+            const DistanceField& example) {
+  const Vec3i n = example.size();
+  const bool larger = options.size.x > n.x || options.size.y > n.y;
+  return parts.size() == 1 && !options.kept && !options.guide && !options.periodic.any() &&
+         !(larger && isGround(example) && slopeOf(example) > kSlope);
 }
 
 int quiltLevels(const DistanceField& example) {
@@ -560,7 +598,7 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
         "(--stationary xy or xyz), or do not turn");
   }
   const std::vector<SourcePart> parts = sourceParts(examples, given);
-  const bool quilted = quilts(given, parts);
+  const bool quilted = quilts(given, parts, *examples[0]);
   const int levels =
       options.levels.value_or(quilted ? quiltLevels(*examples[0]) : defaultLevels(*examples[0]));
   const float air = static_cast<float>(options.truncation);

@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
 
 #include "core/error.h"
+#include "sdf/height_map.h"
 #include "synth/geometry/broken_pieces.h"
 #include "tests/synth/fields.h"
 
@@ -241,6 +243,31 @@ TEST(Optimize, WhereAnAxisIsNotStationaryPartsStillHoldTogether) {
   }
   EXPECT_LT(static_cast<double>(seams) / static_cast<double>(faces), 0.12);
   EXPECT_GT(high, 1.2 * low);  // and the ground still rises
+}
+
+TEST(Optimize, RealGroundThatSlopesHasNoCliffs) {
+  const std::filesystem::path file = "../shared/data/terrain/rockies_srtmgl3_240x144.pgm";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << " beside the checkout";
+  const HeightMap map = readHeightMap(file, {.cellSize = 90, .heightScale = 0.0205});
+  const DistanceField example = heightMapToSdf(map, {.resolution = 64, .halfWidth = 16});
+  const auto steepest = [](const DistanceField& field) {
+    const Vec3i n = field.size();
+    int most = 0;
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 0, before = 0; i < n.x; ++i) {
+        int height = 0;
+        for (int k = 0; k < n.z; ++k) height += field.values(i, j, k) < 0;
+        if (i > 0) most = std::max(most, std::abs(height - before));
+        before = height;
+      }
+    }
+    return most;
+  };
+  const Vec3i n = example.size();
+  OptimizeOptions options;
+  options.size = {2 * n.x, 2 * n.y, n.z};
+  const SynthesisResult result = synthesizeOptimized(example, options);
+  EXPECT_LE(steepest(result.field), steepest(example) + 1);
 }
 
 }  // namespace
