@@ -21,25 +21,18 @@
 #include "synth/geometry/quilt.h"
 #include "synth/geometry/seams.h"
 #include "synth/geometry/source_sheet.h"
+#include "synth/geometry/start.h"
 
 namespace exemplar {
 namespace {
 
-constexpr std::uint32_t kStartStream = 0x0b71, kSearchStream = 0x0b72;
-/// Samples along the longest side of the coarsest level, about.
-constexpr int kCoarsestSide = 16;
+constexpr std::uint32_t kSearchStream = 0x0b72;
 /// Above this many pairs of patches the search is by PatchMatch.
 constexpr double kExactPairs = 3e6;
 /// Iterations of PatchMatch: from random blocks, and from a field that is nearly right.
 constexpr int kFirstIterations = 8, kIterations = 2;
 /// Distance of neighbouring patches where the search is by PatchMatch.
 constexpr int kStride = 2;
-/// A quilt is made where the example has at most this many samples along its longest side.
-constexpr int kQuiltSide = 40;
-/// Ground that rises by more than this from one side to the other slopes, voxels.
-constexpr double kSlope = 1;
-/// How far parts of an object that keeps its size may move along it, of its length.
-constexpr double kObjectShift = 0.16;
 /// Seams whose two sides differ by more than this, in voxels, are optimised away.
 constexpr double kBadSeam = 2;
 /// Seams see distances up to here, in voxels: one through air or through solid is free.
@@ -47,66 +40,8 @@ constexpr float kSeamTruncation = 4;
 /// Seams of the coarser levels, where a few samples reach far: pieces grow into large ones.
 constexpr SeamOptions kCoarseSeams{.reach = 16, .length = 0.05};
 constexpr SeamOptions kFineSeams{.passes = 1, .length = 0.005};
-/// How often a block that may not be copied is drawn again; the second half of times from anywhere.
-constexpr std::uint32_t kDraws = 32;
 /// How far beyond its box a periodic result's seams are evened out with it, in voxels.
 constexpr int kWrapMargin = 12;
-
-/// A sample's place along an axis on which the example is not stationary.
-int proportional(int p, int target, int source) {
-  return target <= 1
-             ? 0
-             : static_cast<int>(std::llround(static_cast<double>(p) * (source - 1) / (target - 1)));
-}
-
-/// How far from its proportional place along an axis that is not stationary a patch may come from,
-/// samples. Where the result is not as long as the example, copied parts cannot all be in place:
-/// more for them to hold together.
-int placeWindow(const PyramidLevel& level, int axis) {
-  const double source = level.partSize[0][axis];
-  const double stretch = std::abs(level.targetSize[axis] / source - 1);
-  return std::max(1, static_cast<int>(source * std::clamp(stretch / 4, 1.0 / 32, 1.0 / 4)));
-}
-
-/// The coarsest level's start: blocks of random content, of a random part, kept to their place
-/// along axes that are not stationary.
-PyramidSources startFromRandomBlocks(const PyramidLevel& level, const StationaryAxes& stationary,
-                                     const OptimizeOptions& options) {
-  const Random random(options.seed, kStartStream);
-  const Vec3i size = level.framedTarget();
-  const Vec3i block = max(level.patch, Vec3i{2, 2, 2});
-  const Vec3i blocks{(size.x + block.x - 1) / block.x, (size.y + block.y - 1) / block.y,
-                     (size.z + block.z - 1) / block.z};
-  const auto parts = static_cast<std::uint32_t>(level.first.size());
-  PyramidSources sources(size);
-  for (std::size_t s = 0; s < sources.count(); ++s) {
-    const Vec3i p = sources.ijk(s);
-    const std::uint64_t key =
-        (static_cast<std::uint64_t>(p.z / block.z) * blocks.y + p.y / block.y) * blocks.x +
-        p.x / block.x;
-    for (std::uint32_t draw = 0; draw < 4 * kDraws; draw += 4) {
-      const std::uint32_t part = parts == 1 ? 0 : random.below(parts, key, draw + 3);
-      const Vec3i source = level.partSize[part] + level.low + level.high;
-      const Vec3i corner = level.first[part] - level.low;
-      Vec3i cell, first;
-      for (int axis = 0; axis < 3; ++axis) {
-        const int within = p[axis] % block[axis];
-        if (stationary[axis] || draw >= 2 * kDraws) {
-          const int range = std::max(1, source[axis] - block[axis] + 1);
-          first[axis] = static_cast<int>(random.below(range, key, draw + axis));
-          cell[axis] = first[axis] + within;
-        } else {
-          cell[axis] = proportional(p[axis], size[axis], source[axis]);
-          first[axis] = proportional(p[axis] - within, size[axis], source[axis]);
-        }
-        cell[axis] = std::clamp(cell[axis], 0, source[axis] - 1);
-      }
-      sources[p] = cell + corner;
-      if (level.allowed.empty() || level.allowed[level.allowed.clamped(first + corner)]) break;
-    }
-  }
-  return sources;
-}
 
 /// The field that a level's search starts from: each patch at where its middle comes from.
 NearestNeighborField startField(const PyramidLevel& level, const PyramidSources& sources,
@@ -123,37 +58,6 @@ NearestNeighborField startField(const PyramidLevel& level, const PyramidSources&
     field.position.values()[s] = max(Vec3i{0, 0, 0}, min(sources[middle] - half, lastMatch));
   }
   return field;
-}
-
-/// How far from its proportional place along an axis a block may come from, samples; negative: any
-/// distance. An object that is to be as long as it was keeps its ends, so its parts cannot go far,
-/// and where it is thin they stay.
-Vec3i blockWindow(const PyramidLevel& level, const StationaryAxes& stationary) {
-  const Vec3i n = level.partSize[0];
-  const int longest = std::max({n.x, n.y, n.z});
-  Vec3i window;
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool object = level.low[axis] > 0 && level.high[axis] > 0;
-    if (object && level.targetSize[axis] == n[axis]) {
-      const bool thin = 2 * n[axis] < longest;
-      window[axis] = thin ? 0 : static_cast<int>(std::lround(n[axis] * kObjectShift));
-    } else {
-      window[axis] = stationary[axis] ? -1 : placeWindow(level, axis);
-    }
-  }
-  return window;
-}
-
-/// The same for patches: as far as a block's may be whose middle is within its window.
-Vec3i patchWindow(const PyramidLevel& level, const StationaryAxes& stationary) {
-  Vec3i window = blockWindow(level, stationary);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (window[axis] < 0) continue;
-    const double n = level.partSize[0][axis];
-    const double stretch = std::abs(1 - n / level.targetSize[axis]);
-    window[axis] += 1 + static_cast<int>(std::ceil(stretch * n / 2));
-  }
-  return window;
 }
 
 Channels channels(const Array3D<float>& values, const Array3D<float>& guide) {
@@ -445,45 +349,6 @@ void check(std::span<const DistanceField* const> examples, const OptimizeOptions
                 "use a lower resolution or a smaller scale");
 }
 
-int defaultLevels(const DistanceField& example) {
-  const Vec3i n = example.size();
-  const int longest = std::max({n.x, n.y, n.z});
-  int levels = 1;
-  while ((longest >> levels) >= kCoarsestSide && levels < 8) ++levels;
-  return levels;
-}
-
-/// Whether an example is ground: solid all over its lowest layer, air all over its highest.
-bool isGround(const DistanceField& example) {
-  const Vec3i n = example.size();
-  for (int j = 0; j < n.y; ++j) {
-    for (int i = 0; i < n.x; ++i) {
-      if (!(example.values(i, j, 0) < 0) || example.values(i, j, n.z - 1) < 0) return false;
-    }
-  }
-  return true;
-}
-
-/// How much higher a ground is at one side than at the opposite one, along x or y, whichever is
-/// more: means over an eighth of its length, voxels.
-double slopeOf(const DistanceField& ground) {
-  const Vec3i n = ground.size();
-  double slope = 0;
-  for (const int axis : {0, 1}) {
-    const int reach = std::max(1, n[axis] / 8);
-    std::int64_t low = 0, high = 0;
-    for (std::size_t s = 0; s < ground.values.count(); ++s) {
-      if (!(ground.values.values()[s] < 0)) continue;
-      const int at = ground.values.ijk(s)[axis];
-      low += at < reach;
-      high += at >= n[axis] - reach;
-    }
-    const double columns = static_cast<double>(reach) * n[1 - axis];
-    slope = std::max(slope, std::abs(static_cast<double>(high - low)) / columns);
-  }
-  return slope;
-}
-
 /// Whether the result starts from large blocks of the example. What must be somewhere (kept,
 /// guided, meeting its other side) and examples that meet start from small ones, which are
 /// optimised on all levels. So does more of a ground that slopes: the ends of large blocks of it
@@ -493,15 +358,7 @@ bool quilts(const OptimizeOptions& options, const std::vector<SourcePart>& parts
   const Vec3i n = example.size();
   const bool larger = options.size.x > n.x || options.size.y > n.y;
   return parts.size() == 1 && !options.kept && !options.guide && !options.periodic.any() &&
-         !(larger && isGround(example) && slopeOf(example) > kSlope);
-}
-
-int quiltLevels(const DistanceField& example) {
-  const Vec3i n = example.size();
-  const int longest = std::max({n.x, n.y, n.z});
-  int levels = 1;
-  while (levels < 8 && (longest >> (levels - 1)) > kQuiltSide) ++levels;
-  return levels;
+         !(larger && isSlopingGround(example));
 }
 
 /// Multiplies the prices of each example's patches, so that one that is used more than its share
@@ -599,8 +456,8 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
   }
   const std::vector<SourcePart> parts = sourceParts(examples, given);
   const bool quilted = quilts(given, parts, *examples[0]);
-  const int levels =
-      options.levels.value_or(quilted ? quiltLevels(*examples[0]) : defaultLevels(*examples[0]));
+  const int levels = options.levels.value_or(quilted ? quiltLevels(*examples[0])
+                                                     : randomStartLevels(*examples[0]));
   const float air = static_cast<float>(options.truncation);
   PyramidOptions pyramid{options.size, options.patch, kStride, options.truncation,
                          options.periodic};
@@ -614,7 +471,7 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
   PyramidLevel level = makeLevel(parts, levels - 1, pyramid);
   progress.report(levelStage(levels - 1), 0);
   PyramidSources sources = quilted ? startFromQuilt(level, stationary, options, progress)
-                                   : startFromRandomBlocks(level, stationary, options);
+                                   : startFromRandomBlocks(level, stationary, options.seed);
   Array3D<float> target;
   for (int l = levels - 1; l >= 0; --l) {
     if (l < levels - 1) {
