@@ -19,6 +19,7 @@
 #include "synth/geometry/patch_vote.h"
 #include "synth/geometry/pyramid.h"
 #include "synth/geometry/quilt.h"
+#include "synth/geometry/rearrange.h"
 #include "synth/geometry/seams.h"
 #include "synth/geometry/source_sheet.h"
 #include "synth/geometry/start.h"
@@ -180,6 +181,35 @@ PyramidSources startFromQuilt(const PyramidLevel& level, const StationaryAxes& s
     cutSeams(level, target, sources, progress);
   };
   return quilt(level, quilting, progress);
+}
+
+/// A start of the example's own size from its halves, exchanged, on the level that is given; or
+/// nothing. Its one joint is all that is cut.
+PyramidSources startFromHalves(const PyramidLevel& level, int l, const StationaryAxes& stationary,
+                               const OptimizeOptions& options, const Progress& progress) {
+  RearrangeOptions rearranging;
+  rearranging.seed = options.seed;
+  rearranging.stationary = stationary;
+  rearranging.window = std::max(2, rearranging.window >> l);
+  const Array3D<float> source = clamped(level.source, kSeamTruncation);
+  const Array3D<std::uint8_t> air = level.airSamples();
+  SeamOptions seams = kCoarseSeams;
+  seams.passes = 1;
+  seams.reach = rearranging.window;
+  if (!air.empty()) seams.air = &air;
+  rearranging.cut = [&](PyramidSources& sources) {
+    Origins origins(sources.size());
+    for (std::size_t s = 0; s < sources.count(); ++s) {
+      origins.values()[s] = Origin(sources.values()[s]);
+    }
+    Array3D<float> target = gather(level, sources);
+    pinTarget(level, static_cast<float>(options.truncation), target);
+    refineSeams(source, clamped(std::move(target), kSeamTruncation), origins, seams, progress);
+    for (std::size_t s = 0; s < sources.count(); ++s) {
+      sources.values()[s] = origins.values()[s].cell();
+    }
+  };
+  return rearrange(level, rearranging, progress);
 }
 
 /// Optimises away the seams that show: patches that cover one are searched for and vote, and what
@@ -456,8 +486,8 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
   }
   const std::vector<SourcePart> parts = sourceParts(examples, given);
   const bool quilted = quilts(given, parts, *examples[0]);
-  const int levels = options.levels.value_or(quilted ? quiltLevels(*examples[0])
-                                                     : randomStartLevels(*examples[0]));
+  int levels = options.levels.value_or(quilted ? quiltLevels(*examples[0])
+                                               : randomStartLevels(*examples[0]));
   const float air = static_cast<float>(options.truncation);
   PyramidOptions pyramid{options.size, options.patch, kStride, options.truncation,
                          options.periodic};
@@ -468,10 +498,22 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
     return "optimising, level " + std::to_string(levels - l) + " of " + std::to_string(levels);
   };
   SynthesisResult result;
-  PyramidLevel level = makeLevel(parts, levels - 1, pyramid);
+  PyramidLevel level;
+  PyramidSources sources;
+  if (quilted && options.size == examples[0]->size()) {
+    // One joint is not looked for on coarser levels.
+    const int only = options.levels.value_or(1);
+    level = makeLevel(parts, only - 1, pyramid);
+    sources = startFromHalves(level, only - 1, stationary, options, progress);
+    if (!sources.empty()) levels = only;
+  }
+  const bool halved = !sources.empty();
   progress.report(levelStage(levels - 1), 0);
-  PyramidSources sources = quilted ? startFromQuilt(level, stationary, options, progress)
-                                   : startFromRandomBlocks(level, stationary, options.seed);
+  if (!halved) {
+    level = makeLevel(parts, levels - 1, pyramid);
+    sources = quilted ? startFromQuilt(level, stationary, options, progress)
+                      : startFromRandomBlocks(level, stationary, options.seed);
+  }
   Array3D<float> target;
   for (int l = levels - 1; l >= 0; --l) {
     if (l < levels - 1) {
@@ -485,7 +527,7 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
     pinTarget(level, air, target);
     if (quilted) {
       progress.report(levelStage(l), 0);
-      if (l > 0 || levels == 1) {
+      if (l > 0 || (levels == 1 && !halved)) {
         cutSeams(level, target, sources, progress);
         target = gather(level, sources);
         pinTarget(level, air, target);

@@ -49,9 +49,11 @@ struct OptimizeOptions {
 
 /// Geometry synthesis by patch optimisation, coarse to fine.
 ///
-/// The coarsest level starts from large blocks of the example, each where it agrees best with those
-/// before, so that all parts get their turn, and a result of the example's own size is no copy of
-/// it (`quilt`). On each level the borders of the copied pieces move to where both sides agree best
+/// A result of the example's own size is the example cut in two and its halves exchanged, where an
+/// axis allows it (`rearrange`); that needs no coarser levels. Else the coarsest level starts from
+/// large blocks of the example, each where it agrees best with those before, so that all parts get
+/// their turn, and a result of the example's own size is no copy of it (`quilt`). On each level the
+/// borders of the copied pieces move to where both sides agree best
 /// (`refineSeams`), and pieces to where they line up (`alignPieces`). On the finest, where a border
 /// shows all the same (`badSeams`), a nearest-neighbour field of overlapping patches and a weighted
 /// vote find what belongs there (Kwatra et al., "Texture optimization for example-based synthesis",

@@ -1,0 +1,236 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/rearrange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
+#include "synth/geometry/quilt.h"
+
+namespace exemplar {
+namespace {
+
+/// A copy moved by this much is a copy, samples.
+constexpr int kCopyReach = 2;
+/// Halves are cut at least this far from the example's ends, of its length.
+constexpr double kEnd = 0.25;
+/// What it costs that both sides of a joint differ by a voxel, in shares of the surface that is
+/// whole no more; and by how much more than the best axis one may cost to get its turn.
+constexpr double kDifference = 0.05, kWorse = 0.1;
+/// Differences at a joint count up to here, voxels.
+constexpr float kLimit = 4;
+/// Halves overlap by at most this much of the example.
+constexpr int kMostOverlap = 4;
+
+/// The example's halves exchanged across an axis: what begins at `at` comes first, then the example
+/// from its beginning on. They overlap by `overlap` samples, the joint in the middle of them.
+struct Exchange {
+  int axis = 0, at = 0, overlap = 0;
+  int liftFirst = 0, liftSecond = 0;  ///< of what comes first and second, samples
+
+  Vec3i source(const Vec3i& size, Vec3i p) const {
+    const int n = size[axis];
+    const bool first = p[axis] < n - at - overlap / 2;
+    p[axis] += first ? at : at + overlap - n;
+    p.z -= first ? liftFirst : liftSecond;
+    return p;
+  }
+};
+
+/// A place for each seed, 0..1, far from those of the seeds before: the ends, and then the middles
+/// of what is between (van der Corput's sequence).
+double farFromOthers(std::uint64_t seed) {
+  if (seed < 2) return static_cast<double>(seed);
+  double place = 0, digit = 0.5;
+  for (std::uint64_t bits = seed - 1; bits > 0; bits /= 2, digit /= 2) {
+    if (bits % 2) place += digit;
+  }
+  return place;
+}
+
+/// How far ground can be lifted and lowered with air left above it and solid below, samples.
+struct Room {
+  int up = 0, down = 0;
+};
+
+Room roomOf(const PyramidLevel& level) {
+  const Vec3i n = level.partSize[0];
+  const auto all = [&](int k, bool solid) {
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 0; i < n.x; ++i) {
+        if ((level.source[level.first[0] + Vec3i{i, j, k}] < 0) != solid) return false;
+      }
+    }
+    return true;
+  };
+  int solid = 0, air = 0;
+  while (solid < n.z && all(solid, true)) ++solid;
+  while (air < n.z && all(n.z - 1 - air, false)) ++air;
+  return solid == 0 || air == 0 ? Room{} : Room{air - 1, solid - 1};
+}
+
+class Rearrangement {
+ public:
+  Rearrangement(const PyramidLevel& level, const RearrangeOptions& options)
+      : level_(level), options_(options), room_(roomOf(level)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool through = level.low[axis] == 0 && level.high[axis] == 0;
+      if (!options.stationary[axis] || !through) continue;
+      if (level.partSize[0][axis] >= 4 * options.window) axes_.push_back(axis);
+    }
+  }
+
+  bool possible() const { return !axes_.empty(); }
+
+  /// What to try, one after the other.
+  std::vector<std::vector<Exchange>> plans() const {
+    std::vector<Exchange> fitting;
+    std::vector<double> costs;
+    for (const int axis : axes_) {
+      const auto [exchange, cost] = fitted(axis);
+      fitting.push_back(exchange);
+      costs.push_back(cost);
+    }
+    const double least = *std::min_element(costs.begin(), costs.end());
+    std::vector<Exchange> good;
+    for (std::size_t n = 0; n < fitting.size(); ++n) {
+      if (costs[n] <= least + kWorse) good.push_back(fitting[n]);
+    }
+    const std::size_t turn = options_.seed % good.size();
+    const double place = farFromOthers(options_.seed / good.size());
+    std::vector<std::vector<Exchange>> plans;
+    for (const double nearer : {0.0, 0.5, 1.0}) {
+      for (std::size_t n = 0; n < good.size(); ++n) {
+        const Exchange& exchange = good[(turn + n) % good.size()];
+        plans.push_back({cutAt(exchange, place + nearer * (0.5 - place))});
+      }
+    }
+    for (std::size_t n = 1; n < fitting.size(); ++n) {
+      Exchange other = cutAt(fitting[n], place);
+      other.liftFirst = other.liftSecond = 0;  // there is only room for the first's
+      plans.push_back({cutAt(fitting[0], place), other});
+    }
+    return plans;
+  }
+
+  PyramidSources sources(const std::vector<Exchange>& plan) const {
+    PyramidSources sources(level_.framedTarget());
+    const Vec3i first = level_.first[0];
+    for (std::size_t s = 0; s < sources.count(); ++s) {
+      Vec3i p = sources.ijk(s) - first;
+      for (const Exchange& exchange : plan) p = exchange.source(level_.partSize[0], p);
+      sources.values()[s] = level_.source.clamped(p + first);
+    }
+    return sources;
+  }
+
+ private:
+  /// Across an axis, the overlap and the lifts with which halves fit best, and what they cost: the
+  /// shares of the example's and of the result's surface that are whole no more.
+  std::pair<Exchange, double> fitted(int axis) const {
+    const double n = level_.partSize[0][axis];
+    const bool lifts = axis != 2 && room_.up + room_.down > 0;
+    const int most = lifts ? room_.up + room_.down : 0;
+    const int narrowest = options_.window - 1;
+    Exchange best{axis, 0, narrowest};
+    double least = 0;
+    int rise = 0;
+    for (int overlap = narrowest; overlap * kMostOverlap <= n; ++overlap) {
+      for (int r = 0; r <= 2 * most; ++r) {
+        const int lift = r % 2 ? -(r + 1) / 2 : r / 2;  // what is near to none first
+        // At the joint and at the faces: in the result windows that lean over them, in the example
+        // those and what the overlap leaves out.
+        const double lost = (3 * narrowest + overlap) / n;
+        const double cost = lost + kDifference * differenceAt(axis, overlap, lift);
+        if ((overlap > narrowest || r > 0) && cost >= least) continue;
+        least = cost;
+        best.overlap = overlap;
+        rise = lift;
+      }
+    }
+    best.liftSecond = rise;
+    return {best, least};
+  }
+
+  /// The exchange cut at a place from 0 to 1, as much of it lifted as is lowered.
+  Exchange cutAt(Exchange exchange, double place) const {
+    const int n = level_.partSize[0][exchange.axis];
+    exchange.at = static_cast<int>(std::lround(n * (kEnd + (1 - 2 * kEnd) * place)));
+    const int rise = exchange.liftSecond;  // of the second above the first; |rise| <= up + down
+    const double share = 1 - static_cast<double>(exchange.at) / n;
+    exchange.liftSecond =
+        std::clamp(static_cast<int>(std::lround(rise * share)),
+                   std::max(-room_.down, rise - room_.down), std::min(room_.up, rise + room_.up));
+    exchange.liftFirst = exchange.liftSecond - rise;
+    return exchange;
+  }
+
+  /// The mean of how much the example's last samples along an axis differ from its first, laid over
+  /// them with an overlap and lifted, near the surface; voxels.
+  double differenceAt(int axis, int overlap, int lift) const {
+    const Vec3i n = level_.partSize[0], first = level_.first[0];
+    Vec3i size = n, last{0, 0, 0};
+    size[axis] = overlap;
+    last[axis] = n[axis] - overlap;
+    const auto at = [&](const Vec3i& p) {
+      return std::clamp(level_.source[level_.source.clamped(p + first)], -kLimit, kLimit);
+    };
+    struct Sum {
+      double difference = 0;
+      std::int64_t count = 0;
+    };
+    std::vector<Sum> layers(static_cast<std::size_t>(size.z));
+    parallelFor(0, layers.size(), 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) {
+        for (int j = 0; j < size.y; ++j) {
+          for (int i = 0; i < size.x; ++i) {
+            const Vec3i p{i, j, static_cast<int>(k)};
+            const float a = at(p + last), b = at(p - Vec3i{0, 0, lift});
+            if (std::min(std::abs(a), std::abs(b)) >= 1) continue;
+            layers[k].difference += std::abs(a - b);
+            ++layers[k].count;
+          }
+        }
+      }
+    });
+    Sum all;
+    for (const Sum& layer : layers) {
+      all.difference += layer.difference;
+      all.count += layer.count;
+    }
+    return all.count == 0 ? 0 : all.difference / static_cast<double>(all.count);
+  }
+
+  const PyramidLevel& level_;
+  const RearrangeOptions& options_;
+  Room room_;
+  std::vector<int> axes_;
+};
+
+}  // namespace
+
+PyramidSources rearrange(const PyramidLevel& level, const RearrangeOptions& options,
+                         const Progress& progress) {
+  if (level.targetSize != level.partSize[0]) return {};
+  const Rearrangement rearrangement(level, options);
+  if (!rearrangement.possible()) return {};
+  PyramidSources farthest;
+  double most = -1;
+  for (const auto& plan : rearrangement.plans()) {
+    PyramidSources sources = rearrangement.sources(plan);
+    if (options.cut) options.cut(sources);
+    if (progress.cancelled()) return {};
+    const double distance = distanceToSource(level, sources, kCopyReach);
+    if (distance <= most) continue;
+    most = distance;
+    farthest = std::move(sources);
+    if (most >= options.novelty) break;
+  }
+  return farthest;
+}
+
+}  // namespace exemplar
