@@ -18,8 +18,10 @@ namespace {
 constexpr int kCopyReach = 2;
 /// Halves are cut at least this far from the example's ends, of its length.
 constexpr double kEnd = 0.25;
-/// What it costs that both sides of a joint differ by a voxel, in shares of the surface that is
-/// whole no more; and by how much more than the best axis one may cost to get its turn.
+/// From this much on, voxels, both sides of a joint have no windows in common.
+constexpr double kFits = 0.5;
+/// What it costs besides that both sides of a joint differ by a voxel, in shares of the surface
+/// that is whole no more; and by how much more than the best axis one may cost to get its turn.
 constexpr double kDifference = 0.05, kWorse = 0.1;
 /// Differences at a joint count up to here, voxels.
 constexpr float kLimit = 4;
@@ -142,10 +144,11 @@ class Rearrangement {
     for (int overlap = narrowest; overlap * kMostOverlap <= n; ++overlap) {
       for (int r = 0; r <= 2 * most; ++r) {
         const int lift = r % 2 ? -(r + 1) / 2 : r / 2;  // what is near to none first
-        // At the joint and at the faces: in the result windows that lean over them, in the example
-        // those and what the overlap leaves out.
-        const double lost = (3 * narrowest + overlap) / n;
-        const double cost = lost + kDifference * differenceAt(axis, overlap, lift);
+        // Windows that lean over the result's faces and, of the example, what the overlap leaves
+        // out; and at the joint those across it, unless both sides agree.
+        const double difference = differenceAt(axis, overlap, lift);
+        const double torn = 2 * narrowest * std::min(1.0, difference / kFits);
+        const double cost = (narrowest + overlap + torn) / n + kDifference * difference;
         if ((overlap > narrowest || r > 0) && cost >= least) continue;
         least = cost;
         best.overlap = overlap;
