@@ -505,7 +505,7 @@ DistanceField repaired(const DistanceField& field) {
   const Array3D<std::uint8_t> around = dilated(marks, kFar + 1);
   // Layer by layer: the triangles of a jumping field are many, and looking them up takes memory.
   constexpr int kLayers = 24;
-  const auto zeroTriangles = zeroSet(values);
+  const auto zeroTriangles = zeroSet(values, &around);
   DistanceField result = field;
   for (int low = 0; low < n.z; low += kLayers) {
     const int high = std::min(n.z, low + kLayers);
@@ -630,7 +630,7 @@ TriangleMesh fieldToMesh(const DistanceField& field, const FieldToMeshOptions& o
   if (mesh.triangles.empty()) throwNoSurface(field, done.droppedPieces);
   for (Vec3d& p : mesh.positions) p = field.position(p);
   if (report) {
-    done.health = meshHealth(mesh);
+    if (options.checkHealth) done.health = meshHealth(mesh);
     *report = done;
   }
   return mesh;

@@ -33,11 +33,13 @@ struct FieldToMeshOptions {
   /// Closed parts, and closed hollows, smaller than this many voxels are dropped unless they touch
   /// the box; 0 keeps everything.
   double smallestPiece = 8;
+  /// Whether the report tells how sound the surface is, which takes a tenth of the time.
+  bool checkHealth = true;
 };
 
 /// What `fieldToMesh` did and how sound the result is.
 struct FieldToMeshReport {
-  MeshHealth health;
+  MeshHealth health;  ///< with `checkHealth`
   ManifoldReport manifold;
   std::int64_t droppedPieces = 0;  ///< parts below `smallestPiece`
   bool uniform = true;             ///< false where `adaptivity` was at work in the end

@@ -10,6 +10,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -115,23 +116,55 @@ void askAll(const Test& test, const Vec3i& low, const Vec3i& first, const Vec3i&
 }
 
 // Sets `inside` from a test whose answer only changes across the surface that `distances` (exact
-// up to 2 voxels) are measured from.
+// up to 2 voxels) are measured from. The test is slow, so few samples of each block are asked: one
+// of each set that hangs together by steps that nothing crosses, the farthest from the surface.
 template <class Test>
 void spreadSigns(const Test& test, const Array3D<float>& distances, Array3D<std::uint8_t>& inside) {
+  // A surface that crosses the step from one sample to the next is as near to both together as
+  // the step is long. Half a voxel on top covers what cutting crossing triangles into pieces may
+  // have lost.
+  constexpr float kApart = 1.5f;
   forBlocks(distances.size(), 4, [&](const Vec3i& low, const Vec3i& high) {
-    // A surface that crosses the step from one sample to the next is as near to both together as
-    // the step is long. Half a voxel on top covers what cutting crossing triangles into pieces may
-    // have lost. So without a sample this near, one answer holds for the block.
-    float nearest = distances[low];
-    serpentine(low, high, [&](const Vec3i& ijk) { nearest = std::min(nearest, distances[ijk]); });
-    if (nearest <= 0.75f) {
-      askAll(test, {}, low, high, inside);
-      return;
+    const Vec3i n = high - low;
+    const int count = n.x * n.y * n.z;
+    std::array<float, 64> distance;
+    std::array<int, 64> leader;
+    const auto leaderOf = [&](int s) {
+      while (leader[s] != s) s = leader[s] = leader[leader[s]];
+      return s;
+    };
+    const auto join = [&](int s, int t) {
+      if (!(distance[s] + distance[t] > kApart)) return;
+      s = leaderOf(s);
+      t = leaderOf(t);
+      if (distance[s] < distance[t]) std::swap(s, t);
+      leader[t] = s;
+    };
+    int s = 0;
+    for (int k = 0; k < n.z; ++k)
+      for (int j = 0; j < n.y; ++j)
+        for (int i = 0; i < n.x; ++i, ++s) {
+          distance[s] = distances(low.x + i, low.y + j, low.z + k);
+          leader[s] = s;
+          if (i > 0) join(s - 1, s);
+          if (j > 0) join(s - n.x, s);
+          if (k > 0) join(s - n.x * n.y, s);
+        }
+    std::array<Vec3d, 64> points;
+    std::array<int, 64> place;  // of a leader among the points
+    std::array<std::uint8_t, 64> in;
+    std::size_t asked = 0;
+    for (s = 0; s < count; ++s) {
+      if (leader[s] != s) continue;
+      const Vec3i ijk = low + Vec3i{s % n.x, s / n.x % n.y, s / (n.x * n.y)};
+      place[s] = static_cast<int>(asked);
+      points[asked++] = cast<double>(ijk);
     }
-    const Vec3d p = cast<double>(low);
-    std::uint8_t in = 0;
-    test.inside({&p, 1}, {&in, 1});
-    serpentine(low, high, [&](const Vec3i& ijk) { inside[ijk] = in; });
+    test.inside({points.data(), asked}, {in.data(), asked});
+    s = 0;
+    for (int k = low.z; k < high.z; ++k)
+      for (int j = low.y; j < high.y; ++j)
+        for (int i = low.x; i < high.x; ++i, ++s) inside(i, j, k) = in[place[leaderOf(s)]];
   });
 }
 

@@ -75,7 +75,7 @@ void cutTetrahedron(const std::array<Sample, 4>& s, std::vector<Corners>& out) {
 
 }  // namespace
 
-std::vector<Corners> zeroSet(const Array3D<float>& values) {
+std::vector<Corners> zeroSet(const Array3D<float>& values, const Array3D<std::uint8_t>* where) {
   const Vec3i size = values.size();
   if (size.x < 2 || size.y < 2 || size.z < 2) return {};
   // One list a layer of cells, joined in order: the same triangles at any number of threads.
@@ -85,14 +85,19 @@ std::vector<Corners> zeroSet(const Array3D<float>& values) {
       const int k = static_cast<int>(layer);
       for (int j = 0; j + 1 < size.y; ++j)
         for (int i = 0; i + 1 < size.x; ++i) {
+          // Most cells have nothing: cheap looks first.
+          int inside = 0, wanted = where ? 0 : 1;
+          for (int c = 0; c < 8; ++c) {
+            const Vec3i ijk{i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)};
+            inside += values[ijk] < 0;
+            if (where) wanted |= (*where)[ijk];
+          }
+          if (inside == 0 || inside == 8 || wanted == 0) continue;
           std::array<Sample, 8> cell;
-          int inside = 0;
           for (int c = 0; c < 8; ++c) {
             const Vec3i ijk{i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)};
             cell[c] = {cast<double>(ijk), values[ijk]};
-            inside += cell[c].value < 0;
           }
-          if (inside == 0 || inside == 8) continue;
           for (const auto& t : kTetrahedra) {
             cutTetrahedron({cell[t[0]], cell[t[1]], cell[t[2]], cell[t[3]]}, layers[layer]);
           }

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/progress.h"
 #include "sdf/distance_field.h"
 #include "sdf/triangle_tree.h"
@@ -27,7 +30,9 @@ DistanceField redistance(const DistanceField& field, const RedistanceOptions& op
                          const Progress& progress = {});
 
 /// The zero set of samples as triangles, positions in index space, wound anticlockwise seen from
-/// the positive side: closed but for the box's sides. Degenerate where samples are exactly 0.
-std::vector<Corners> zeroSet(const Array3D<float>& values);
+/// the positive side: closed but for the box's sides. Degenerate where samples are exactly 0. With
+/// `where` (of the samples' size) only that of cells with a corner whose mark is not 0.
+std::vector<Corners> zeroSet(const Array3D<float>& values,
+                             const Array3D<std::uint8_t>* where = nullptr);
 
 }  // namespace exemplar

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -185,6 +186,24 @@ TEST(ZeroSet, IsClosedAndFacesOutside) {
   Vec3d total{};
   for (const Corners& t : triangles) total += cross(t[1] - t[0], t[2] - t[0]);
   EXPECT_NEAR(length(total), 0, 1e-9);
+}
+
+TEST(ZeroSet, LeavesOutCellsWithoutAMark) {
+  const auto field = warped(test::sphere({0, 0, 0}, 0.7), 20);
+  const auto all = zeroSet(field.values);
+  Array3D<std::uint8_t> marks(field.size(), 1);
+  EXPECT_EQ(zeroSet(field.values, &marks), all);
+  // Marks at one end: of what is near it all, in the same order, of what is far nothing.
+  for (std::size_t s = 0; s < marks.count(); ++s) marks.values()[s] = marks.ijk(s).x < 8;
+  const auto some = zeroSet(field.values, &marks);
+  const auto lowest = [](const Corners& t) { return std::min({t[0].x, t[1].x, t[2].x}); };
+  const auto near = [&](std::vector<Corners> triangles) {
+    std::erase_if(triangles, [&](const Corners& t) { return lowest(t) >= 7; });
+    return triangles;
+  };
+  EXPECT_EQ(near(some), near(all));
+  EXPECT_LT(some.size(), all.size());
+  for (const Corners& t : some) EXPECT_LE(lowest(t), 8);
 }
 
 }  // namespace
