@@ -38,50 +38,69 @@ EdgeGroups edgeGroups(const Triangles& triangles, std::size_t vertices) {
   // Halfedges are dealt into one bucket for each edge's lower vertex; a bucket is short, so sorting
   // it by the higher vertex costs next to nothing.
   const auto halfedgeCount = static_cast<std::uint32_t>(3 * triangles.size());
-  const auto lowVertex = [&](std::uint32_t h) {
-    return std::min(fromVertex(triangles, h), toVertex(triangles, h));
+  const auto forSides = [&](const auto& body) {  // halfedge, lower vertex, higher vertex
+    std::uint32_t h = 0;
+    for (const auto& [a, b, c] : triangles) {
+      body(h, std::min(a, b), std::max(a, b));
+      body(h + 1, std::min(b, c), std::max(b, c));
+      body(h + 2, std::min(c, a), std::max(c, a));
+      h += 3;
+    }
   };
-  const auto highVertex = [&](std::uint32_t h) {
-    return std::max(fromVertex(triangles, h), toVertex(triangles, h));
-  };
-  std::vector<std::uint32_t> bucket(vertices + 1, 0);
-  for (std::uint32_t h = 0; h < halfedgeCount; ++h) ++bucket[lowVertex(h) + 1];
+  // One place too far at first: filling a bucket moves its end there.
+  std::vector<std::uint32_t> bucket(vertices + 2, 0);
+  forSides([&](std::uint32_t, std::uint32_t low, std::uint32_t) { ++bucket[low + 2]; });
   std::partial_sum(bucket.begin(), bucket.end(), bucket.begin());
+  struct Side {
+    std::uint32_t high, halfedge;
+    bool operator<(const Side& b) const {
+      return high != b.high ? high < b.high : halfedge < b.halfedge;
+    }
+  };
+  std::vector<Side> sides(halfedgeCount);
+  forSides([&](std::uint32_t h, std::uint32_t low, std::uint32_t high) {
+    sides[bucket[low + 1]++] = {high, h};
+  });
 
   EdgeGroups groups;
   groups.halfedges.resize(halfedgeCount);
-  std::vector<std::uint32_t> fill(bucket.begin(), bucket.end() - 1);
-  for (std::uint32_t h = 0; h < halfedgeCount; ++h) groups.halfedges[fill[lowVertex(h)]++] = h;
+  std::vector<std::uint32_t> edges(vertices + 1, 0);  // where each bucket's groups begin
   parallelFor(0, vertices, kGrain, [&](std::size_t v0, std::size_t v1) {
     for (std::size_t v = v0; v < v1; ++v) {
-      std::sort(groups.halfedges.begin() + bucket[v], groups.halfedges.begin() + bucket[v + 1],
-                [&](std::uint32_t a, std::uint32_t b) {
-                  return std::pair(highVertex(a), a) < std::pair(highVertex(b), b);
-                });
+      const auto begin = sides.begin() + bucket[v], end = sides.begin() + bucket[v + 1];
+      std::sort(begin, end);
+      for (auto side = begin; side != end; ++side) {
+        groups.halfedges[side - sides.begin()] = side->halfedge;
+        edges[v + 1] += side == begin || side->high != (side - 1)->high;
+      }
     }
   });
-  groups.begin.reserve(halfedgeCount / 2 + 2);
-  for (std::uint32_t n = 0; n < halfedgeCount; ++n) {
-    const std::uint32_t h = groups.halfedges[n];
-    if (n == 0 || lowVertex(h) != lowVertex(groups.halfedges[n - 1]) ||
-        highVertex(h) != highVertex(groups.halfedges[n - 1])) {
-      groups.begin.push_back(n);
+  std::partial_sum(edges.begin(), edges.end(), edges.begin());
+  groups.begin.resize(edges.back() + std::size_t{1});
+  parallelFor(0, vertices, kGrain, [&](std::size_t v0, std::size_t v1) {
+    for (std::size_t v = v0; v < v1; ++v) {
+      std::uint32_t e = edges[v];
+      for (std::uint32_t n = bucket[v]; n < bucket[v + 1]; ++n) {
+        if (n == bucket[v] || sides[n].high != sides[n - 1].high) groups.begin[e++] = n;
+      }
     }
-  }
-  groups.begin.push_back(halfedgeCount);
+  });
+  groups.begin.back() = halfedgeCount;
   return groups;
 }
 
 std::vector<std::uint32_t> mateHalfedges(const Triangles& triangles, std::size_t vertices) {
   const EdgeGroups groups = edgeGroups(triangles, vertices);
   std::vector<std::uint32_t> mates(3 * triangles.size(), kNone);
-  for (std::size_t e = 0; e < groups.count(); ++e) {
-    const auto group = groups.group(e);
-    if (group.size() != 2) continue;
-    if (fromVertex(triangles, group[0]) == fromVertex(triangles, group[1])) continue;
-    mates[group[0]] = group[1];
-    mates[group[1]] = group[0];
-  }
+  parallelFor(0, groups.count(), kGrain, [&](std::size_t e0, std::size_t e1) {
+    for (std::size_t e = e0; e < e1; ++e) {
+      const auto group = groups.group(e);
+      if (group.size() != 2) continue;
+      if (fromVertex(triangles, group[0]) == fromVertex(triangles, group[1])) continue;
+      mates[group[0]] = group[1];
+      mates[group[1]] = group[0];
+    }
+  });
   return mates;
 }
 
@@ -94,8 +113,9 @@ VertexCorners vertexCorners(const Triangles& triangles, std::size_t vertices) {
   std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
   result.corners.resize(3 * triangles.size());
   std::vector<std::uint32_t> fill(result.begin.begin(), result.begin.end() - 1);
-  for (std::uint32_t h = 0; h < result.corners.size(); ++h) {
-    result.corners[fill[fromVertex(triangles, h)]++] = h;
+  std::uint32_t corner = 0;
+  for (const auto& t : triangles) {
+    for (const std::uint32_t v : t) result.corners[fill[v]++] = corner++;
   }
   return result;
 }

@@ -45,10 +45,10 @@ void removeEqualCorners(TriangleMesh& mesh, ManifoldReport& report) {
 }
 
 /// Removes pairs of triangles that have the same corners and wind against each other. Removing one
-/// pair leaves no new one, so one pass does.
-void removeFlaps(TriangleMesh& mesh, ManifoldReport& report) {
+/// pair leaves no new one, so one pass does. Returns the edges of what is left.
+EdgeGroups removeFlaps(TriangleMesh& mesh, ManifoldReport& report) {
   const Triangles& triangles = mesh.triangles;
-  const EdgeGroups groups = edgeGroups(triangles, mesh.positions.size());
+  EdgeGroups groups = edgeGroups(triangles, mesh.positions.size());
   std::vector<std::uint8_t> keep(triangles.size(), 1);
   std::int64_t removed = 0;
   for (std::size_t e = 0; e < groups.count(); ++e) {
@@ -65,8 +65,10 @@ void removeFlaps(TriangleMesh& mesh, ManifoldReport& report) {
       }
     }
   }
-  if (removed > 0) keepTriangles(mesh, keep);
   report.removedTriangles += removed;
+  if (removed == 0) return groups;
+  keepTriangles(mesh, keep);
+  return edgeGroups(triangles, mesh.positions.size());
 }
 
 /// Pairs the halfedges of one edge where three or more meet: seen along the edge, each solid wedge
@@ -113,20 +115,38 @@ void pairByAngle(const TriangleMesh& mesh, std::span<const std::uint32_t> group,
   }
 }
 
-std::vector<std::uint32_t> pairHalfedges(const TriangleMesh& mesh) {
-  const EdgeGroups groups = edgeGroups(mesh.triangles, mesh.positions.size());
+std::vector<std::uint32_t> pairHalfedges(const TriangleMesh& mesh, const EdgeGroups& groups) {
   std::vector<std::uint32_t> mates(3 * mesh.triangles.size(), kNone);
+  parallelFor(0, groups.count(), 4096, [&](std::size_t e0, std::size_t e1) {
+    for (std::size_t e = e0; e < e1; ++e) {
+      const auto group = groups.group(e);
+      if (group.size() > 2) {
+        pairByAngle(mesh, group, mates);
+      } else if (group.size() == 2 &&
+                 fromVertex(mesh.triangles, group[0]) != fromVertex(mesh.triangles, group[1])) {
+        mates[group[0]] = group[1];
+        mates[group[1]] = group[0];
+      }
+    }
+  });
+  return mates;
+}
+
+/// The halfedges of edges at which more than one sheet of triangles ends or passes, each sheet by
+/// its first one. Splitting vertices only ever parts sheets, so no other edge can be shared later.
+std::vector<std::uint32_t> sharedEdges(const EdgeGroups& groups,
+                                       const std::vector<std::uint32_t>& mates) {
+  std::vector<std::uint32_t> shared, sheets;
   for (std::size_t e = 0; e < groups.count(); ++e) {
     const auto group = groups.group(e);
-    if (group.size() > 2) {
-      pairByAngle(mesh, group, mates);
-    } else if (group.size() == 2 &&
-               fromVertex(mesh.triangles, group[0]) != fromVertex(mesh.triangles, group[1])) {
-      mates[group[0]] = group[1];
-      mates[group[1]] = group[0];
+    if (group.size() == 1 || (group.size() == 2 && mates[group[0]] == group[1])) continue;
+    sheets.clear();
+    for (const std::uint32_t h : group) {
+      if (mates[h] == kNone || mates[h] >= h) sheets.push_back(h);
     }
+    if (sheets.size() > 1) shared.insert(shared.end(), sheets.begin(), sheets.end());
   }
-  return mates;
+  return shared;
 }
 
 /// Gives each fan of triangles a vertex of its own; marks all vertices that were one before.
@@ -175,10 +195,10 @@ void splitVertices(TriangleMesh& mesh, const std::vector<std::uint32_t>& mates,
 }
 
 /// Two sheets may still share both ends of an edge where their fans are joined elsewhere. All but
-/// one of them get a vertex of their own in the middle of the edge.
+/// one of them get a vertex of their own in the middle of the edge. `shared`: see `sharedEdges`.
 void splitEdges(TriangleMesh& mesh, const std::vector<std::uint32_t>& mates,
-                std::vector<std::uint8_t>& touched, ManifoldReport& report) {
-  const EdgeGroups groups = edgeGroups(mesh.triangles, mesh.positions.size());
+                std::vector<std::uint32_t> shared, std::vector<std::uint8_t>& touched,
+                ManifoldReport& report) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> middles;  // halfedge, new vertex
   const auto addMiddle = [&](std::uint32_t h) {
     const std::uint32_t a = fromVertex(mesh.triangles, h), b = toVertex(mesh.triangles, h);
@@ -197,14 +217,15 @@ void splitEdges(TriangleMesh& mesh, const std::vector<std::uint32_t>& mates,
     }
     ++report.splitEdges;
   };
-  for (std::size_t e = 0; e < groups.count(); ++e) {
-    const auto group = groups.group(e);
-    bool first = true;
-    for (const std::uint32_t h : group) {
-      if (mates[h] != kNone && mates[h] < h) continue;  // seen with its mate
-      if (!first) addMiddle(h);
-      first = false;
-    }
+  const auto edgeOf = [&](std::uint32_t h) {
+    const std::uint32_t a = fromVertex(mesh.triangles, h), b = toVertex(mesh.triangles, h);
+    return std::pair(std::min(a, b), std::max(a, b));
+  };
+  std::sort(shared.begin(), shared.end(), [&](std::uint32_t g, std::uint32_t h) {
+    return std::pair(edgeOf(g), g) < std::pair(edgeOf(h), h);
+  });
+  for (std::size_t n = 1; n < shared.size(); ++n) {
+    if (edgeOf(shared[n]) == edgeOf(shared[n - 1])) addMiddle(shared[n]);
   }
   std::sort(middles.begin(), middles.end());
   for (std::size_t n = 0; n < middles.size();) {
@@ -349,13 +370,16 @@ ManifoldReport makeManifold(TriangleMesh& mesh, const ManifoldOptions& options) 
   assert(options.separation >= 0 && options.separation <= 0.5);
   ManifoldReport report;
   removeEqualCorners(mesh, report);
-  removeFlaps(mesh, report);
-
-  const std::vector<std::uint32_t> mates = pairHalfedges(mesh);
+  std::vector<std::uint32_t> mates, shared;
+  {
+    const EdgeGroups groups = removeFlaps(mesh, report);
+    mates = pairHalfedges(mesh, groups);
+    shared = sharedEdges(groups, mates);
+  }
   report.boundaryEdges = std::count(mates.begin(), mates.end(), kNone);
   std::vector<std::uint8_t> touched;
   splitVertices(mesh, mates, touched, report);
-  splitEdges(mesh, mates, touched, report);
+  splitEdges(mesh, mates, std::move(shared), touched, report);
   if (options.separation > 0) {
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t v = 0; v < touched.size(); ++v) {

@@ -24,16 +24,18 @@ Reconstruction reconstructSurface(const DistanceField& field, const Origins& ori
   }
   Reconstruction result;
   TriangleMesh& mesh = result.mesh;
+  FieldToMeshOptions contour = options.contour;
+  contour.checkHealth = false;
   if (options.blend > 0) {
     progress.report("blending seams", 0);
     std::vector<const DistanceField*> fields;
     for (const ReconstructExample& example : examples) fields.push_back(&example.field);
     const DistanceField blended = blendSeams(field, origins, fields, {.width = options.blend});
     progress.report("contouring", 0.2);
-    mesh = fieldToMesh(blended, options.contour, &result.contour);
+    mesh = fieldToMesh(blended, contour, &result.contour);
   } else {
     progress.report("contouring", 0.2);
-    mesh = fieldToMesh(field, options.contour, &result.contour);
+    mesh = fieldToMesh(field, contour, &result.contour);
   }
   if (options.relax > 0) {
     progress.report("relaxing seams", 0.5);

@@ -36,7 +36,7 @@ struct ReconstructOptions {
 struct Reconstruction {
   TriangleMesh mesh;
   MeshHealth health;
-  FieldToMeshReport contour;  ///< of the surface before relaxing and simplifying
+  FieldToMeshReport contour;  ///< of the surface before all else; without its health
 };
 
 /// From what a synthesis returns to what leaves the program: blends the seams, contours, relaxes,
