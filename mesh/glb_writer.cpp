@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -21,7 +22,9 @@ constexpr int kFloat = 5126, kUnsignedInt = 5125;
 constexpr int kVertices = 34962, kIndices = 34963;
 
 void appendLittle(std::string& out, std::uint32_t value) {
-  for (int i = 0; i < 4; ++i) out += static_cast<char>(value >> (8 * i) & 255);
+  std::array<char, 4> bytes;
+  for (int i = 0; i < 4; ++i) bytes[i] = static_cast<char>(value >> (8 * i) & 255);
+  out.append(bytes.data(), bytes.size());
 }
 void appendLittle(std::string& out, float value) {
   appendLittle(out, std::bit_cast<std::uint32_t>(value));
@@ -227,6 +230,8 @@ class GlbWriter {
   /// A mesh of the file: one primitive for each material, all with the same vertices.
   Json addPrimitives() {
     const SplitVertices vertices = splitVertices(*part_);
+    binary_.reserve(binary_.size() + vertices.source.size() * (part_->hasColors() ? 28 : 12) +
+                    vertices.uvs.size() * 8 + vertices.triangles.size() * 12);
     Json attributes{{"POSITION", addPositions(vertices.source)}};
     if (part_->hasColors()) attributes["COLOR_0"] = addColors(vertices.source);
     if (part_->hasUvs()) {

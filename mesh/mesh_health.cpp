@@ -3,6 +3,8 @@
 
 #include "mesh/mesh_health.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -18,22 +20,21 @@ namespace {
 /// Sets of indices that are joined one pair after another.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count) {
-    parent_.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) parent_.push_back(i);
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
   }
-  std::size_t find(std::size_t i) {
+  std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(std::size_t a, std::size_t b) {
+  void join(std::uint32_t a, std::uint32_t b) {
     a = find(a);
     b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
 
  private:
-  std::vector<std::size_t> parent_;
+  std::vector<std::uint32_t> parent_;
 };
 
 bool hasEqualCorners(const std::array<std::uint32_t, 3>& t) {
@@ -147,14 +148,14 @@ void countEdgesAndFans(const TriangleMesh& mesh, MeshHealth& health) {
 
 std::int64_t countComponents(const TriangleMesh& mesh) {
   DisjointSets sets(mesh.positions.size());
-  std::vector<bool> used(mesh.positions.size(), false);
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
   for (const auto& [a, b, c] : mesh.triangles) {
     sets.join(a, b);
     sets.join(b, c);
-    used[a] = used[b] = used[c] = true;
+    used[a] = used[b] = used[c] = 1;
   }
   std::int64_t count = 0;
-  for (std::size_t v = 0; v < used.size(); ++v) count += used[v] && sets.find(v) == v;
+  for (std::uint32_t v = 0; v < used.size(); ++v) count += used[v] && sets.find(v) == v;
   return count;
 }
 
@@ -187,8 +188,9 @@ MeshHealth meshHealth(const TriangleMesh& mesh, const MeshHealthOptions& options
                                                              count += isDegenerate(mesh, t);
                                                            return count;
                                                          });
-  countEdgesAndFans(mesh, health);
-  health.components = countComponents(mesh);
+  // Both have much to do that only one thread can.
+  tbb::parallel_invoke([&] { countEdgesAndFans(mesh, health); },
+                       [&] { health.components = countComponents(mesh); });
   health.signedVolume = signedVolume(mesh);
   if (options.selfIntersections) health.selfIntersections = countSelfIntersections(mesh);
   return health;
