@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "apps/command.h"
+#include "apps/synth_control.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -87,9 +88,11 @@ Example loadHeightMap(Example example, const ExampleOptions& options, const Prog
 }
 
 Example loadVolume(Example example, const ExampleOptions&, const Progress&) {
-  example.field = readVdb(example.path);
+  example.field = readVdb(example.path, &example.wraps);
   example.scale = {2, 2, 2};
+  const auto& [x, y, z] = example.wraps;
   example.description = "volume";
+  if (x || y || z) example.description += " that tiles along " + readableAxes(x, y, z);
   return example;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -38,6 +39,7 @@ struct Example {
   std::optional<TriangleMesh> mesh;  ///< where materials and colours come from
   Vec3d scale{2, 2, 1};              ///< a good size of a result, in boxes of the example
   int block = 16;                    ///< a good block size at the finest level, samples
+  std::array<bool, 3> wraps{};       ///< along which axes a volume goes round and tiles
   HeightMapFileOptions heights;      ///< the units that a height map had, to write one alike
 };
 

@@ -4,6 +4,7 @@
 // exemplar mesh: a signed distance grid, or a grid of labels, as triangles.
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -28,7 +29,8 @@ TriangleMesh dressed(const std::string& path, const std::string& originsPath,
                      const std::string& examplePath, const SynthControl& control,
                      const ExampleOptions& reading, Terminal& terminal) {
   SynthesisResult result;
-  result.field = readVdb(path);
+  std::array<bool, 3> wraps{};
+  result.field = readVdb(path, &wraps);
   result.origins = readOriginsVdb(originsPath);
   if (result.origins.size() != result.field.size()) {
     throw InputError(originsPath + ": origins of " + readableSize(result.origins.size()) +
@@ -56,7 +58,10 @@ TriangleMesh dressed(const std::string& path, const std::string& originsPath,
     if (result.status == SynthesisStatus::Cancelled) throw Interrupted();
   }
   terminal.step("making the surface");
-  return reconstructSurface(result.field, result.origins, examples.views(), {.blend = 0},
+  ReconstructOptions surface;
+  surface.blend = 0;
+  surface.contour.wraps = wraps;
+  return reconstructSurface(result.field, result.origins, examples.views(), surface,
                             terminal.progress())
       .mesh;
 }
@@ -126,7 +131,7 @@ CommandRun addMeshCommand(CLI::App& app) {
     if (options->control.detail > 1) throw InputError("--detail needs --origins and --example");
     const Example example = loadExample(options->field, options->reading, terminal.progress());
     terminal.step("contouring");
-    const TriangleMesh mesh = fieldToMesh(example.field);
+    const TriangleMesh mesh = fieldToMesh(example.field, {.wraps = example.wraps});
     terminal.step("writing " + options->output);
     writeMesh(options->output, mesh, options->reading.mesh);
     terminal.say("example", example.description);

@@ -31,7 +31,7 @@ CommandRun addSdfCommand(CLI::App& app) {
     requireOutput(options->output, ".vdb");
     const Example example = loadExample(options->example, options->reading, terminal.progress());
     terminal.step("writing " + options->output);
-    writeVdb(options->output, example.field);
+    writeVdb(options->output, example.field, example.wraps);
     terminal.say("example", example.description);
     terminal.say("field", options->output + ": " + readableSize(example.field.size()));
   };

@@ -107,9 +107,14 @@ void warnOfCollapse(const Examples& examples, const SynthesisResult& made, Json&
                    "; try another --seed, one of --levels less, or another --stationary");
 }
 
+struct SoundMesh {
+  TriangleMesh mesh;
+  MeshHealth health;
+};
+
 /// The surface, closed and with the examples' materials, or copied triangle by triangle.
-TriangleMesh reconstruct(const Options& options, const Examples& examples,
-                         const SynthesisResult& result, Terminal& terminal) {
+SoundMesh reconstruct(const Options& options, const Examples& examples,
+                      const SynthesisResult& result, Terminal& terminal) {
   const Example& example = examples.first();
   if (options.surface == Surface::Copy) {
     if (!example.mesh || examples.all.size() > 1) {
@@ -119,15 +124,17 @@ TriangleMesh reconstruct(const Options& options, const Examples& examples,
                        "; use --surface contour");
     }
     terminal.step("copying the example's triangles");
-    return copyTriangles(result.field, result.origins, *example.mesh, example.field).mesh;
+    CopiedTriangles copied =
+        copyTriangles(result.field, result.origins, *example.mesh, example.field);
+    return {std::move(copied.mesh), copied.health};
   }
   terminal.step("making the surface");
   ReconstructOptions surface;
   surface.blend = 0;  // the seams of the field are evened out already
   surface.contour.wraps = parseAxes(options.control.periodic, "--periodic");
-  return reconstructSurface(result.field, result.origins, examples.views(), surface,
-                            terminal.progress())
-      .mesh;
+  Reconstruction made = reconstructSurface(result.field, result.origins, examples.views(), surface,
+                                           terminal.progress());
+  return {std::move(made.mesh), made.health};
 }
 
 Json toJson(const MeshHealth& health) {
@@ -221,8 +228,7 @@ void synth(const Options& options) {
   const Stopwatch surface;
   const bool meshOut = isMeshFile(options.output);
   if (meshOut || !options.preview.empty() || !options.report.empty()) {
-    const TriangleMesh mesh = reconstruct(options, examples, result, terminal);
-    const MeshHealth health = meshHealth(mesh);
+    const auto [mesh, health] = reconstruct(options, examples, result, terminal);
     stats["mesh"] = toJson(health);
     Image8 image;
     if (!options.preview.empty()) image = render(mesh, picture, terminal.progress());
@@ -245,7 +251,7 @@ void synth(const Options& options) {
     terminal.say("heights", options.output);
   }
   if (lowerExtension(options.output) == ".vdb") {
-    writeVdb(options.output, result.field);
+    writeVdb(options.output, result.field, parseAxes(options.control.periodic, "--periodic"));
     terminal.say("field", options.output);
   }
   if (!options.origins.empty()) {

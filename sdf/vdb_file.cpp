@@ -8,6 +8,7 @@
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -27,8 +28,10 @@ namespace fs = std::filesystem;
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-// Metadata of ours: the field's truncation, which a full field's background does not tell.
+// Metadata of ours: the field's truncation, which a full field's background does not tell, and 1
+// for each axis along which the field goes round.
 constexpr const char* kTruncation = "exemplar_truncation";
+constexpr const char* kWraps = "exemplar_wraps";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw InputError(path.string() + ": " + what);
@@ -155,13 +158,20 @@ void place(Grid& grid, const DistanceField& field) {
   grid.setCreator("exemplar");
 }
 
+std::array<bool, 3> wrapsOf(const openvdb::GridBase& grid) {
+  const auto stated = grid.getMetadata<openvdb::Vec3IMetadata>(kWraps);
+  if (!stated) return {};
+  const openvdb::Vec3i& v = stated->value();
+  return {v[0] != 0, v[1] != 0, v[2] != 0};
+}
+
 void requireSamples(const fs::path& path, std::size_t count) {
   if (count == 0) fail(path, "cannot be written: the field has no samples");
 }
 
 }  // namespace
 
-void writeVdb(const fs::path& path, const DistanceField& field) {
+void writeVdb(const fs::path& path, const DistanceField& field, const std::array<bool, 3>& wraps) {
   requireSamples(path, field.values.count());
   openvdbReady();
   float background = field.truncation;
@@ -175,6 +185,9 @@ void writeVdb(const fs::path& path, const DistanceField& field) {
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
   place(*grid, field);
   grid->insertMeta(kTruncation, openvdb::FloatMetadata(field.truncation));
+  if (wraps[0] || wraps[1] || wraps[2]) {
+    grid->insertMeta(kWraps, openvdb::Vec3IMetadata({wraps[0], wraps[1], wraps[2]}));
+  }
   const Vec3i size = field.size();
   // The view is only read, but OpenVDB has none of constant samples.
   const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
@@ -190,10 +203,14 @@ void writeVdb(const fs::path& path, const DistanceField& field) {
   writeVdbGrids(path, {grid});
 }
 
-DistanceField readVdb(const fs::path& path) {
+DistanceField readVdb(const fs::path& path, std::array<bool, 3>* wraps) {
   return withGrids<DistanceField>(path, [&](const openvdb::GridPtrVec& grids) {
-    if (const auto grid = firstGrid<openvdb::FloatGrid>(grids, "")) return fieldFrom(*grid, path);
-    if (const auto grid = firstGrid<openvdb::DoubleGrid>(grids, "")) return fieldFrom(*grid, path);
+    const auto read = [&](const auto& grid) {
+      if (wraps) *wraps = wrapsOf(grid);
+      return fieldFrom(grid, path);
+    };
+    if (const auto grid = firstGrid<openvdb::FloatGrid>(grids, "")) return read(*grid);
+    if (const auto grid = firstGrid<openvdb::DoubleGrid>(grids, "")) return read(*grid);
     std::string names;
     for (const auto& grid : grids)
       names += (names.empty() ? "" : ", ") + grid->getName() + " (" + grid->valueType() + ")";

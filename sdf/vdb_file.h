@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <filesystem>
 
 #include "core/origin.h"
@@ -12,13 +13,15 @@ namespace exemplar {
 
 /// Writes a field as one float grid "surface" of class level set (`.vdb`), world transform
 /// included, as Blender, Houdini and `vdb_print` read it. Samples outside ±truncation become
-/// background tiles. Whole or not at all.
-void writeVdb(const std::filesystem::path& path, const DistanceField& field);
+/// background tiles. Whole or not at all. `wraps`: along which axes the field goes round, its last
+/// sample beside its first; the file says so.
+void writeVdb(const std::filesystem::path& path, const DistanceField& field,
+              const std::array<bool, 3>& wraps = {});
 
 /// Reads the first float grid of a `.vdb` (a level set, or a fog volume whose 0.5 becomes the
 /// surface) as a dense field over its active box. Voxels must be cubes. Throws `InputError` naming
-/// the file.
-DistanceField readVdb(const std::filesystem::path& path);
+/// the file. `wraps` becomes what `writeVdb` was told, none for files of other programs.
+DistanceField readVdb(const std::filesystem::path& path, std::array<bool, 3>* wraps = nullptr);
 
 /// Origins as an int32 vector grid "origin" (example cell i, j, k) and an int32 grid "source"
 /// (example and quarter turns) on the transform of `field`, and back.

@@ -165,6 +165,28 @@ TEST(SynthCommand, APeriodicResultGoesOnAtItsOtherSide) {
   EXPECT_LT(across(" --periodic x,y"), 0.7 * across(""));
 }
 
+TEST(SynthCommand, AMeshOfAPeriodicVolumeIsTheOneThatSynthWrites) {
+  const TestFolder folder;
+  const std::string make = "synth " + scene("balls") + kQuick + "--scale 1 --periodic x,y ";
+  ASSERT_EQ(runExemplar(make + "-o o.ply", folder.path()).status, 0);
+  ASSERT_EQ(runExemplar(make + "-o o.vdb --origins from.vdb", folder.path()).status, 0);
+  const auto plain = runExemplar("mesh o.vdb -o plain.ply", folder.path());
+  ASSERT_EQ(plain.status, 0) << plain.err;
+  EXPECT_THAT(plain.out, testing::HasSubstr("tiles along x, y"));
+  ASSERT_EQ(runExemplar("mesh o.vdb -o dressed.ply --origins from.vdb --resolution 32 --example " +
+                            scene("balls"),
+                        folder.path())
+                .status,
+            0);
+  EXPECT_EQ(readFile(folder / "dressed.ply"), readFile(folder / "o.ply"));
+  // Open where the copies join, and what closes the surface elsewhere is there.
+  const MeshHealth open = meshHealth(readMesh(folder / "plain.ply"));
+  EXPECT_GT(open.boundaryEdges, 0);
+  ASSERT_EQ(runExemplar("sdf o.vdb -o copy.vdb", folder.path()).status, 0);
+  ASSERT_EQ(runExemplar("mesh copy.vdb -o copy.ply", folder.path()).status, 0);
+  EXPECT_EQ(readFile(folder / "copy.ply"), readFile(folder / "plain.ply"));
+}
+
 TEST(SynthCommand, WhatIsKeptStaysAsItIs) {
   const TestFolder folder;
   ASSERT_EQ(

@@ -10,6 +10,7 @@
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/LevelSetUtil.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -53,6 +54,16 @@ TEST(VdbFile, ComesBackToTheLastBit) {
     const DistanceField field = torusField(truncation);
     writeVdb(folder / "field.vdb", field);
     expectSame(readVdb(folder / "field.vdb"), field);
+  }
+}
+
+TEST(VdbFile, TellsAlongWhichAxesAFieldGoesRound) {
+  const TemporaryFolder folder;
+  for (const std::array<bool, 3> told : {std::array{true, false, true}, {false, false, false}}) {
+    writeVdb(folder / "field.vdb", torusField(0.18), told);
+    std::array<bool, 3> wraps{true, true, true};
+    expectSame(readVdb(folder / "field.vdb", &wraps), torusField(0.18));
+    EXPECT_EQ(wraps, told);
   }
 }
 
