@@ -32,6 +32,8 @@ write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/exemplarConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/exemplarConfig.cmake
               ${PROJECT_BINARY_DIR}/exemplarConfigVersion.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/LinkedPackages.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FindCaDiCaL.cmake
         DESTINATION ${exemplar_package})
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/
