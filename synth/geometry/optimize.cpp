@@ -20,6 +20,7 @@
 #include "synth/geometry/pyramid.h"
 #include "synth/geometry/quilt.h"
 #include "synth/geometry/rearrange.h"
+#include "synth/geometry/repetition.h"
 #include "synth/geometry/seams.h"
 #include "synth/geometry/source_sheet.h"
 #include "synth/geometry/start.h"
@@ -169,12 +170,33 @@ void cutSeams(const PyramidLevel& level, const Array3D<float>& target, PyramidSo
   pinSources(level, sources);
 }
 
+/// The steps after which a level's example, which is its only part, nearly repeats.
+Repetition repetitionOf(const PyramidLevel& level) {
+  Array3D<float> example(level.partSize[0]);
+  for (std::size_t s = 0; s < example.count(); ++s) {
+    example.values()[s] = level.source[example.ijk(s) + level.first[0]];
+  }
+  return findRepetition(example);
+}
+
+/// Brings pieces back in step: half a coarse sample that they were off is a whole one now.
+void keepInStep(const PyramidLevel& level, const Repetition& repetition, PyramidSources& sources) {
+  if (!repetition.any()) return;
+  for (std::size_t s = 0; s < sources.count(); ++s) {
+    const Vec3i p = sources.ijk(s);
+    const Vec3i step = repetition.nearest(sources.values()[s] - p);
+    sources.values()[s] = level.source.clamped(p + step);
+  }
+}
+
 /// A level's start from large blocks, their joints cut.
 PyramidSources startFromQuilt(const PyramidLevel& level, const StationaryAxes& stationary,
-                              const OptimizeOptions& options, const Progress& progress) {
+                              const Repetition& repetition, const OptimizeOptions& options,
+                              const Progress& progress) {
   QuiltOptions quilting;
   quilting.seed = options.seed;
   quilting.window = blockWindow(level, stationary);
+  quilting.repetition = repetition;
   quilting.cut = [&](PyramidSources& sources) {
     Array3D<float> target = gather(level, sources);
     pinTarget(level, static_cast<float>(options.truncation), target);
@@ -509,9 +531,12 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
   }
   const bool halved = !sources.empty();
   progress.report(levelStage(levels - 1), 0);
+  Repetition repetition;
   if (!halved) {
     level = makeLevel(parts, levels - 1, pyramid);
-    sources = quilted ? startFromQuilt(level, stationary, options, progress)
+    // What keeps its size keeps in step by staying where it is, which makes a copy.
+    if (quilted && level.targetSize != level.partSize[0]) repetition = repetitionOf(level);
+    sources = quilted ? startFromQuilt(level, stationary, repetition, options, progress)
                       : startFromRandomBlocks(level, stationary, options.seed);
   }
   Array3D<float> target;
@@ -519,6 +544,8 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
     if (l < levels - 1) {
       PyramidLevel finer = makeLevel(parts, l, pyramid);
       sources = refineSources(level, sources, finer);
+      repetition = repetition.refined(2);
+      keepInStep(finer, repetition, sources);
       level = std::move(finer);
     }
     pinSources(level, sources);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,12 @@ constexpr double kSameOffset = 1.0 / 16;
 constexpr double kInPlace = 0.5;
 /// How much longer than the example a result is, from which its blocks may be longer, too.
 constexpr double kLonger = 1.5;
+/// An offset within half a sample of a step is in step: there is one, or there are two.
+constexpr double kInStep = 0.501;
+/// Where blocks as long as the example have no offset in step, they take the nearest up to here.
+constexpr double kFarOff = 3;
+/// A period that the example is short of by so small a share of it counts as whole.
+constexpr double kNearlyWhole = 0.1;
 /// How `variety` rises, and how often.
 constexpr double kMoreVariety = 1.5;
 constexpr int kRises = 4;
@@ -59,8 +66,15 @@ class Quilt {
         use_(level.source.size()) {
     for (int axis = 0; axis < 3; ++axis) {
       const int n = level.partSize[0][axis];
-      const double share = level.targetSize[axis] < kLonger * n ? options.block : options.longBlock;
-      block_[axis] = std::max(2, static_cast<int>(std::lround(n * share)));
+      const bool longer = level.targetSize[axis] >= kLonger * n;
+      const double share = longer ? options.longBlock : options.block;
+      const int side = static_cast<int>(std::lround(n * share));
+      block_[axis] = std::max(2, std::min(side, n - options.repetition.cell()[axis]));
+      period_[axis] = options.repetition.periodAlong(axis);
+      if (period_[axis] > 0) {
+        const double room = longer ? n : n * options.block;
+        periods_[axis] = std::max(1, static_cast<int>(room / period_[axis] + kNearlyWhole));
+      }
       overlap_[axis] =
           std::max(1, static_cast<int>(std::lround(n * std::min(options.overlap, 1 - share))));
     }
@@ -112,8 +126,25 @@ class Quilt {
   }
 
  private:
-  /// Where a row's blocks begin and end along an axis: from a random phase, none very thin.
+  /// Where a row's blocks begin and end along an axis: from a random phase.
   std::vector<int> joints(int axis, std::uint64_t row) const {
+    return period_[axis] > 0 ? jointsInStep(axis, row) : jointsAnywhere(axis, row);
+  }
+
+  /// Blocks of as many whole periods as they have room for.
+  std::vector<int> jointsInStep(int axis, std::uint64_t row) const {
+    const auto periods = static_cast<std::uint32_t>(periods_[axis]);
+    std::vector<int> joints{0};
+    double next = period_[axis] * (1 + random_.below(periods, row, kPhase));
+    for (; next < size_[axis] - 1; next += period_[axis] * periods) {
+      joints.push_back(static_cast<int>(std::lround(next)));
+    }
+    joints.push_back(size_[axis]);
+    return joints;
+  }
+
+  /// Blocks of one length, none very thin.
+  std::vector<int> jointsAnywhere(int axis, std::uint64_t row) const {
     const int length = size_[axis], side = block_[axis];
     std::vector<int> joints{0};
     if (length > side) {
@@ -121,9 +152,15 @@ class Quilt {
       if (next < side / 3) next += side;
       for (; length - next >= std::max(1, side / 3); next += side) joints.push_back(next);
     }
-    // What the last joint left over may be more than the example has.
-    if (length - joints.back() > example_[axis]) joints.push_back((length + joints.back()) / 2);
     joints.push_back(length);
+    // The first and the last may be more than the example has, or leave it no room to be in step.
+    const int longest = std::max(1, example_[axis] - options_.repetition.cell()[axis]);
+    for (std::size_t n = 1; n < joints.size(); ++n) {
+      const int first = joints[n - 1], over = joints[n] - first;
+      if (over > longest) {
+        joints.insert(joints.begin() + static_cast<std::ptrdiff_t>(n), first + (over + 1) / 2);
+      }
+    }
     return joints;
   }
 
@@ -205,15 +242,32 @@ class Quilt {
     return samples / static_cast<double>(volume(size_));
   }
 
+  /// Which of so many offsets are steps of the repetition, as nearly as there are any; all where it
+  /// does not repeat.
+  template <class Offset>
+  std::vector<std::size_t> inStep(std::size_t count, const Offset& offset) const {
+    std::vector<std::size_t> all(count), choice;
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (!options_.repetition.any()) return all;
+    for (double tolerance = kInStep; tolerance < kFarOff; tolerance += 0.5) {
+      for (const std::size_t n : all) {
+        if (options_.repetition.holds(offset(n), tolerance)) choice.push_back(n);
+      }
+      if (!choice.empty()) return choice;
+    }
+    return all;
+  }
+
   void place(const Vec3i& first, const Vec3i& end, std::uint64_t block) {
     const auto [low, high] = places(first, end);
     const Array3D<std::uint8_t> box(high - low + Vec3i{1, 1, 1});
     const std::vector<Known> known = knownAround(first, end, box.count());
-    std::vector<double> cost(box.count());
     const auto offset = [&, low = low](std::size_t n) { return box.ijk(n) + low - first; };
+    const std::vector<std::size_t> choice = inStep(box.count(), offset);
+    std::vector<double> cost(choice.size());
     parallelFor(0, cost.size(), 16, [&](std::size_t from, std::size_t to) {
       for (std::size_t n = from; n < to; ++n) {
-        const Vec3i d = offset(n);
+        const Vec3i d = offset(choice[n]);
         cost[n] =
             disagreementAt(known, d) + options_.use * useOf(first, end, d) + variety_ * shareOf(d);
       }
@@ -221,7 +275,7 @@ class Quilt {
     const double limit = *std::min_element(cost.begin(), cost.end()) * (1 + options_.slack) + 1e-6;
     std::vector<std::size_t> good;
     for (std::size_t n = 0; n < cost.size(); ++n) {
-      if (cost[n] <= limit) good.push_back(n);
+      if (cost[n] <= limit) good.push_back(choice[n]);
     }
     const Vec3i d =
         offset(good[random_.below(static_cast<std::uint32_t>(good.size()), block, kDraw)]);
@@ -248,6 +302,8 @@ class Quilt {
   double variety_;
   Random random_;
   Vec3i example_, size_, block_, overlap_;
+  Vec3d period_;   // along each axis; 0: none
+  Vec3i periods_;  // of a block
   int near_;
   PyramidSources sources_;
   Array3D<float> shown_;

@@ -8,6 +8,7 @@
 
 #include "core/progress.h"
 #include "synth/geometry/pyramid.h"
+#include "synth/geometry/repetition.h"
 
 namespace exemplar {
 
@@ -31,6 +32,9 @@ struct QuiltOptions {
   /// How far from its proportional place along an axis a block may come from, samples; negative:
   /// any distance.
   Vec3i window{-1, -1, -1};
+  /// The steps after which the example nearly repeats. Blocks keep in step: their offsets are such
+  /// steps, and they are whole numbers of periods long where those lie along an axis.
+  Repetition repetition;
 };
 
 /// A level's start: large blocks of one part of the example (Efros, Freeman: "Image quilting for

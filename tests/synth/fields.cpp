@@ -68,6 +68,25 @@ DistanceField waves(const Vec3i& size, int period) {
   });
 }
 
+DistanceField lattice(const Vec3i& size, const std::array<Vec3d, 3>& steps, double radius,
+                      double jitter) {
+  constexpr int kReach = 8, kSide = 2 * kReach + 1;
+  const Random random(7, 7);
+  std::vector<Vec3d> centers;
+  for (int n = 0; n < kSide * kSide * kSide; ++n) {
+    Vec3d at = cast<double>(size) * 0.5;
+    at += steps[0] * (n % kSide - kReach) + steps[1] * (n / kSide % kSide - kReach);
+    at += steps[2] * (n / kSide / kSide - kReach);
+    for (int axis = 0; axis < 3; ++axis) at[axis] += jitter * random.uniform(-1, 1, n, axis);
+    centers.push_back(at);
+  }
+  return fill(size, [&](const Vec3i& p) {
+    double nearest = 1e9;
+    for (const Vec3d& c : centers) nearest = std::min(nearest, length(cast<double>(p) - c));
+    return nearest - radius;
+  });
+}
+
 DistanceField constant(const Vec3i& size, float value) {
   return fill(size, [&](const Vec3i&) { return value; });
 }

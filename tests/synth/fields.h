@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -24,6 +25,10 @@ DistanceField ground(const Vec3i& size, std::uint64_t seed);
 
 /// A field that repeats exactly after `period` samples along each axis, values about ±period / 4.
 DistanceField waves(const Vec3i& size, int period);
+
+/// Balls at all sums of whole multiples of three steps, each out of place by up to `jitter`.
+DistanceField lattice(const Vec3i& size, const std::array<Vec3d, 3>& steps, double radius,
+                      double jitter);
 
 /// One value everywhere.
 DistanceField constant(const Vec3i& size, float value);

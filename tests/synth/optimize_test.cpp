@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "sdf/height_map.h"
 #include "synth/geometry/broken_pieces.h"
+#include "synth/geometry/repetition.h"
 #include "tests/synth/fields.h"
 
 namespace exemplar {
@@ -121,6 +122,26 @@ TEST(Optimize, BallsStayWhole) {
   const DistanceField example = balls({32, 32, 32}, 4, 1);
   SynthesisResult result = synthesizeOptimized(example, sized({36, 36, 36}));
   EXPECT_EQ(dropBrokenPieces(example, result.origins), 0);
+}
+
+TEST(Optimize, WhatRepeatsGoesOnInStep) {
+  // Steps between samples, and parts a little out of place, as in woven things.
+  const DistanceField example =
+      lattice({45, 42, 15}, {{{14.7, 0, 0}, {0, 10.4, 0}, {0, 0, 30}}}, 3.4, 0.2);
+  OptimizeOptions options;
+  options.size = {90, 84, 15};
+  Repetition steps;
+  steps.basis = {{14.7, 0, 0}, {0, 10.4, 0}};
+  for (options.seed = 0; options.seed < 2; ++options.seed) {
+    const SynthesisResult result = synthesizeOptimized(example, options);
+    std::int64_t out = 0;
+    for (std::size_t s = 0; s < result.origins.count(); ++s) {
+      const Vec3i step = result.origins.values()[s].cell() - result.origins.ijk(s);
+      out += !steps.holds(step, 1.5);
+    }
+    // Single samples at seams may have been moved aside.
+    EXPECT_LT(static_cast<double>(out), 0.01 * static_cast<double>(result.origins.count()));
+  }
 }
 
 TEST(Optimize, AnyCompletenessAboveZeroIsTaken) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -131,6 +132,26 @@ TEST(Quilt, AnExampleThatRepeatsGoesOnRepeating) {
       }
     }
   }
+}
+
+TEST(Quilt, BlocksKeepInStepWithARepetition) {
+  // Bricks: one step is along x, the other is not along an axis.
+  const std::array<Vec3d, 3> steps{{{9, 0, 0}, {4.5, 6, 0}, {0, 0, 7}}};
+  const PyramidLevel level = levelOf(lattice({36, 30, 24}, steps, 2.2, 0.3), {72, 60, 48});
+  const auto outOfStep = [&](const QuiltOptions& options) {
+    Repetition repetition;
+    repetition.basis.assign(steps.begin(), steps.end());
+    const PyramidSources sources = quilt(level, options);
+    std::int64_t out = 0;
+    for (std::size_t s = 0; s < sources.count(); ++s) {
+      out += !repetition.holds(sources.values()[s] - sources.ijk(s), 1);
+    }
+    return static_cast<double>(out) / static_cast<double>(sources.count());
+  };
+  QuiltOptions options;
+  EXPECT_GT(outOfStep(options), 0.2);
+  options.repetition.basis.assign(steps.begin(), steps.end());
+  EXPECT_EQ(outOfStep(options), 0);
 }
 
 TEST(Quilt, EveryPartOfTheExampleGetsItsTurn) {
