@@ -22,7 +22,8 @@ DistanceField slopeField(double slope) {
   });
 }
 
-/// `field` with everything right of x = 20 taken from `shift` cells further left.
+/// `field` with everything right of x = 20 taken from `shift` cells further left, or from the
+/// example's end.
 struct Copied {
   DistanceField field;
   Origins origins;
@@ -32,8 +33,9 @@ struct Copied {
     for (std::size_t n = 0; n < origins.count(); ++n) {
       const Vec3i c = origins.ijk(n);
       if (c.x < 20) continue;
-      origins.values()[n] = Origin(c - Vec3i{shift, 0, 0});
-      field.values[c] = example.values[c - Vec3i{shift, 0, 0}];
+      const Vec3i source = example.values.clamped(c - Vec3i{shift, 0, 0});
+      origins.values()[n] = Origin(source);
+      field.values[c] = example.values[source];
     }
   }
 };

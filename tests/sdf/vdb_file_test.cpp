@@ -244,6 +244,10 @@ TEST(VdbFile, RefusesFilesThatEndEarlyAtAnyByte) {
 }
 
 TEST(VdbFile, DamagedBytesAreReadOrRefusedButNothingElse) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "OpenVDB asks for as much memory as a damaged size says; the sanitizer's own "
+                  "operator new ends the program where the standard's throws";
+#endif
   const TemporaryFolder folder;
   writeVdb(folder / "whole.vdb", torusField(0.12, {14, 13, 12}));
   const std::string whole = readFile(folder / "whole.vdb");
