@@ -170,13 +170,20 @@ void cutSeams(const PyramidLevel& level, const Array3D<float>& target, PyramidSo
   pinSources(level, sources);
 }
 
-/// The steps after which a level's example, which is its only part, nearly repeats.
+/// The steps after which a level's example, which is its only part, nearly repeats. Where the
+/// result shall go on at its other side it must hold a whole number of them: else there are none.
 Repetition repetitionOf(const PyramidLevel& level) {
   Array3D<float> example(level.partSize[0]);
   for (std::size_t s = 0; s < example.count(); ++s) {
     example.values()[s] = level.source[example.ijk(s) + level.first[0]];
   }
-  return findRepetition(example);
+  Repetition repetition = findRepetition(example);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!level.periodic[axis]) continue;
+    const int length = level.targetSize[axis], apart = level.partSize[0][axis];
+    if (!repetition.stretch(axis, length, apart, kStretch)) return {};
+  }
+  return repetition;
 }
 
 /// Brings pieces back in step: half a coarse sample that they were off is a whole one now.
@@ -184,8 +191,8 @@ void keepInStep(const PyramidLevel& level, const Repetition& repetition, Pyramid
   if (!repetition.any()) return;
   for (std::size_t s = 0; s < sources.count(); ++s) {
     const Vec3i p = sources.ijk(s);
-    const Vec3i step = repetition.nearest(sources.values()[s] - p);
-    sources.values()[s] = level.source.clamped(p + step);
+    const Vec3i step = repetition.nearest(sources.values()[s] - p - level.inPlace());
+    sources.values()[s] = level.source.clamped(p + level.inPlace() + step);
   }
 }
 
@@ -401,15 +408,15 @@ void check(std::span<const DistanceField* const> examples, const OptimizeOptions
                 "use a lower resolution or a smaller scale");
 }
 
-/// Whether the result starts from large blocks of the example. What must be somewhere (kept,
-/// guided, meeting its other side) and examples that meet start from small ones, which are
-/// optimised on all levels. So does more of a ground that slopes: the ends of large blocks of it
-/// would meet in cliffs.
+/// Whether the result may start from large blocks of the example. What must be somewhere (kept,
+/// guided) and examples that meet start from small ones, which are optimised on all levels; so does
+/// what must meet its other side, unless it repeats. So does more of a ground that slopes: the ends
+/// of large blocks of it would meet in cliffs.
 bool quilts(const OptimizeOptions& options, const std::vector<SourcePart>& parts,
             const DistanceField& example) {
   const Vec3i n = example.size();
   const bool larger = options.size.x > n.x || options.size.y > n.y;
-  return parts.size() == 1 && !options.kept && !options.guide && !options.periodic.any() &&
+  return parts.size() == 1 && !options.kept && !options.guide &&
          !(larger && isSlopingGround(example));
 }
 
@@ -507,14 +514,23 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
         "(--stationary xy or xyz), or do not turn");
   }
   const std::vector<SourcePart> parts = sourceParts(examples, given);
-  const bool quilted = quilts(given, parts, *examples[0]);
-  int levels = options.levels.value_or(quilted ? quiltLevels(*examples[0])
-                                               : randomStartLevels(*examples[0]));
   const float air = static_cast<float>(options.truncation);
   PyramidOptions pyramid{options.size, options.patch, kStride, options.truncation,
                          options.periodic};
   if (given.kept) pyramid.kept = &*given.kept;
   if (given.guide) pyramid.guide = &*given.guide;
+
+  bool quilted = quilts(given, parts, *examples[0]);
+  const bool same = options.size == examples[0]->size() && !options.periodic.any();
+  // What keeps its size would keep in step by staying where it is, which makes a copy.
+  Repetition repetition;
+  if (quilted && !same) {
+    const int coarsest = options.levels.value_or(quiltLevels(*examples[0])) - 1;
+    repetition = repetitionOf(makeLevel(parts, coarsest, pyramid));
+  }
+  if (options.periodic.any() && !repetition.any()) quilted = false;
+  int levels = options.levels.value_or(quilted ? quiltLevels(*examples[0])
+                                               : randomStartLevels(*examples[0]));
 
   const auto levelStage = [&](int l) {
     return "optimising, level " + std::to_string(levels - l) + " of " + std::to_string(levels);
@@ -522,7 +538,7 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
   SynthesisResult result;
   PyramidLevel level;
   PyramidSources sources;
-  if (quilted && options.size == examples[0]->size()) {
+  if (quilted && same) {
     // One joint is not looked for on coarser levels.
     const int only = options.levels.value_or(1);
     level = makeLevel(parts, only - 1, pyramid);
@@ -531,11 +547,8 @@ SynthesisResult synthesizeOptimized(std::span<const DistanceField* const> exampl
   }
   const bool halved = !sources.empty();
   progress.report(levelStage(levels - 1), 0);
-  Repetition repetition;
   if (!halved) {
     level = makeLevel(parts, levels - 1, pyramid);
-    // What keeps its size keeps in step by staying where it is, which makes a copy.
-    if (quilted && level.targetSize != level.partSize[0]) repetition = repetitionOf(level);
     sources = quilted ? startFromQuilt(level, stationary, repetition, options, progress)
                       : startFromRandomBlocks(level, stationary, options.seed);
   }

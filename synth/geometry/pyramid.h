@@ -74,8 +74,10 @@ struct PyramidLevel {
   /// Where the target takes nothing solid, of its size: in its frame of air, and the outermost
   /// layer of the result inside of it. Empty where there is no frame.
   Array3D<std::uint8_t> airSamples() const;
+  /// The offset that leaves the first part where it is.
+  Vec3i inPlace() const { return first[0] - before; }
   /// The source of a kept sample of the target.
-  Vec3i keptSource(const Vec3i& p) const { return p - before + first[0]; }
+  Vec3i keptSource(const Vec3i& p) const { return p + inPlace(); }
 };
 
 /// Where each sample of a level's target comes from in its source.

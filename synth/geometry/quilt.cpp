@@ -64,7 +64,13 @@ class Quilt {
         shown_(size_),
         placed_(size_),
         use_(level.source.size()) {
+    low_ = {0, 0, 0};
+    high_ = size_;
     for (int axis = 0; axis < 3; ++axis) {
+      if (level.periodic[axis]) {
+        low_[axis] = level.before[axis];
+        high_[axis] = low_[axis] + level.targetSize[axis];
+      }
       const int n = level.partSize[0][axis];
       const bool longer = level.targetSize[axis] >= kLonger * n;
       const double share = longer ? options.longBlock : options.block;
@@ -86,7 +92,7 @@ class Quilt {
       const Vec3i p = shown_.ijk(s);
       bool frame = false;
       for (int axis = 0; axis < 3; ++axis) {
-        frame = frame || p[axis] < level.before[axis];
+        frame = frame || (!level.periodic[axis] && p[axis] < level.before[axis]);
         frame = frame || (level.high[axis] > 0 && p[axis] >= end[axis]);
       }
       if (!frame) continue;
@@ -134,12 +140,12 @@ class Quilt {
   /// Blocks of as many whole periods as they have room for.
   std::vector<int> jointsInStep(int axis, std::uint64_t row) const {
     const auto periods = static_cast<std::uint32_t>(periods_[axis]);
-    std::vector<int> joints{0};
-    double next = period_[axis] * (1 + random_.below(periods, row, kPhase));
-    for (; next < size_[axis] - 1; next += period_[axis] * periods) {
+    std::vector<int> joints{low_[axis]};
+    double next = low_[axis] + period_[axis] * (1 + random_.below(periods, row, kPhase));
+    for (; next < high_[axis] - 1; next += period_[axis] * periods) {
       joints.push_back(static_cast<int>(std::lround(next)));
     }
-    joints.push_back(size_[axis]);
+    joints.push_back(high_[axis]);
     return joints;
   }
 
@@ -196,7 +202,9 @@ class Quilt {
       low[axis] = 0;
       high[axis] = std::max(0, example_[axis] - length);
       if (options_.window[axis] < 0) continue;
-      const double middle = (first[axis] + end[axis]) / 2.0 * example_[axis] / size_[axis];
+      const double inside = (first[axis] + end[axis]) / 2.0 - level_.before[axis];
+      const double middle =
+          level_.first[0][axis] + inside * level_.partSize[0][axis] / level_.targetSize[axis];
       const int place = static_cast<int>(std::lround(middle - length / 2.0));
       high[axis] = std::clamp(place + options_.window[axis], 0, high[axis]);
       low[axis] = std::clamp(place - options_.window[axis], 0, high[axis]);
@@ -251,11 +259,28 @@ class Quilt {
     if (!options_.repetition.any()) return all;
     for (double tolerance = kInStep; tolerance < kFarOff; tolerance += 0.5) {
       for (const std::size_t n : all) {
-        if (options_.repetition.holds(offset(n), tolerance)) choice.push_back(n);
+        const Vec3i step = offset(n) - level_.inPlace();
+        if (options_.repetition.holds(step, tolerance)) choice.push_back(n);
       }
       if (!choice.empty()) return choice;
     }
     return all;
+  }
+
+  /// Notes what a sample shows, and where the result goes on at its other side, there.
+  void show(const Vec3i& p, float value) {
+    for (int image = 0; image < 27; ++image) {
+      const Vec3i side = Vec3i{image % 3, image / 3 % 3, image / 9} - Vec3i{1, 1, 1};
+      Vec3i at = p;
+      bool there = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        there = there && (side[axis] == 0 || level_.periodic[axis]);
+        at[axis] += side[axis] * level_.targetSize[axis];
+      }
+      if (!there || !shown_.contains(at)) continue;
+      shown_[at] = value;
+      placed_[at] = 1;
+    }
   }
 
   void place(const Vec3i& first, const Vec3i& end, std::uint64_t block) {
@@ -288,10 +313,9 @@ class Quilt {
           const Vec3i p{i, j, k}, q = level_.source.clamped(p + d);
           sources_[p] = q;
           if (placed_[p]) continue;
-          placed_[p] = 1;
-          shown_[p] = std::clamp(level_.source[q], -kLimit, kLimit);
           use_[q] += 1;
           ++made_;
+          show(p, std::clamp(level_.source[q], -kLimit, kLimit));
         }
       }
     }
@@ -302,8 +326,9 @@ class Quilt {
   double variety_;
   Random random_;
   Vec3i example_, size_, block_, overlap_;
-  Vec3d period_;   // along each axis; 0: none
-  Vec3i periods_;  // of a block
+  Vec3i low_, high_;  // of what blocks are laid on: all but the margins of periodic axes
+  Vec3d period_;      // along each axis; 0: none
+  Vec3i periods_;     // of a block
   int near_;
   PyramidSources sources_;
   Array3D<float> shown_;

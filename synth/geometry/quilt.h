@@ -32,8 +32,9 @@ struct QuiltOptions {
   /// How far from its proportional place along an axis a block may come from, samples; negative:
   /// any distance.
   Vec3i window{-1, -1, -1};
-  /// The steps after which the example nearly repeats. Blocks keep in step: their offsets are such
-  /// steps, and they are whole numbers of periods long where those lie along an axis.
+  /// The steps after which the example nearly repeats, samples of the level. Blocks keep in step:
+  /// their offsets are such steps, and they are whole numbers of periods long where those lie along
+  /// an axis.
   Repetition repetition;
 };
 
@@ -45,8 +46,9 @@ struct QuiltOptions {
 /// example and that offset were used already. So every part gets its turn, and a result of the
 /// example's own size is no copy of it. Joints are straight still: `refineSeams` finds better ones.
 ///
-/// The level has a single part of which all is usable, and no axis is periodic. O(blocks x places x
-/// 4096); the same bytes at any number of threads. A cancelled one is only partly made.
+/// The level has a single part of which all is usable. Along periodic axes, which the repetition
+/// must have a period along, blocks meet those at the other side. O(blocks x places x 4096); the
+/// same bytes at any number of threads. A cancelled one is only partly made.
 PyramidSources quilt(const PyramidLevel& level, const QuiltOptions& options,
                      const Progress& progress = {});
 

@@ -270,6 +270,15 @@ double Repetition::periodAlong(int axis) const {
   return period;
 }
 
+bool Repetition::stretch(int axis, int length, int apart, double tolerance) {
+  const double period = periodAlong(axis);
+  if (period == 0) return false;
+  const double stretched = length / std::max(1.0, std::round(length / period));
+  if (std::abs(stretched / period - 1) * apart > tolerance) return false;
+  for (Vec3d& v : basis) v[axis] *= stretched / period;
+  return true;
+}
+
 Vec3i Repetition::cell() const {
   Vec3i cell{0, 0, 0};
   for (const Vec3d& v : basis) {

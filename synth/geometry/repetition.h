@@ -26,6 +26,9 @@ struct Repetition {
   Repetition refined(double factor) const;
   /// The length of a basis vector along this axis that stands alone, nearly so; 0: there is none.
   double periodAlong(int axis) const;
+  /// Makes `length` a whole number of periods along this axis, where one vector stands alone along
+  /// it and that moves what is `apart` samples apart by at most `tolerance`; else returns false.
+  bool stretch(int axis, int length, int apart, double tolerance);
   /// How long the basis vectors are along each axis at most, samples, rounded up.
   Vec3i cell() const;
 

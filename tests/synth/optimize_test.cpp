@@ -144,6 +144,36 @@ TEST(Optimize, WhatRepeatsGoesOnInStep) {
   }
 }
 
+TEST(Optimize, WhatRepeatsMeetsItsOtherSideInStep) {
+  const DistanceField example =
+      lattice({45, 42, 15}, {{{14.9, 0, 0}, {0, 10.6, 0}, {0, 0, 30}}}, 3.4, 0.2);
+  OptimizeOptions options;
+  options.size = {90, 84, 15};
+  options.periodic = {true, true, false};
+  const SynthesisResult result = synthesizeOptimized(example, options);
+  const Array3D<float>& values = result.field.values;
+  // Neighbours across the faces differ no more than neighbours inside.
+  double most = 0, across = 0;
+  for (std::size_t s = 0; s < values.count(); ++s) {
+    const Vec3i p = values.ijk(s);
+    for (int axis = 0; axis < 2; ++axis) {
+      Vec3i q = p;
+      q[axis] = (p[axis] + 1) % values.size()[axis];
+      double& worst = q[axis] == 0 ? across : most;
+      worst = std::max<double>(worst, std::abs(values[p] - values[q]));
+    }
+  }
+  EXPECT_LE(across, most);
+  EXPECT_LT(across, 1.5);  // a distance, with parts 0.4 out of place and steps between samples
+  std::int64_t out = 0;
+  Repetition steps;
+  steps.basis = {{15, 0, 0}, {0, 10.5, 0}};  // six and eight of them
+  for (std::size_t s = 0; s < result.origins.count(); ++s) {
+    out += !steps.holds(result.origins.values()[s].cell() - result.origins.ijk(s), 1.5);
+  }
+  EXPECT_LT(static_cast<double>(out), 0.01 * static_cast<double>(result.origins.count()));
+}
+
 TEST(Optimize, AnyCompletenessAboveZeroIsTaken) {
   const DistanceField example = balls({16, 16, 16}, 4, 1);
   for (const double completeness : {1e-300, 1e-3, 1e3, 1e300}) {

@@ -154,6 +154,29 @@ TEST(Quilt, BlocksKeepInStepWithARepetition) {
   EXPECT_EQ(outOfStep(options), 0);
 }
 
+TEST(Quilt, BlocksOfARepetitionMeetTheOtherSide) {
+  const std::array<Vec3d, 3> steps{{{10, 0, 0}, {0, 8, 0}, {0, 0, 40}}};
+  const DistanceField example = lattice({30, 24, 12}, steps, 3, 0);
+  PyramidOptions pyramid;
+  pyramid.size = {50, 40, 12};
+  pyramid.periodic = {true, true, false};
+  const std::vector<SourcePart> parts{{example, 0, 0, {}}};
+  const PyramidLevel level = makeLevel(parts, 0, pyramid);
+  QuiltOptions options;
+  options.repetition.basis = {steps[0], steps[1]};
+  options.window = {-1, -1, 0};
+  PyramidSources sources = quilt(level, options);
+  pinSources(level, sources);
+  const Array3D<float> target = gather(level, sources);
+  for (std::size_t s = 0; s < target.count(); ++s) {
+    // The example repeats exactly, so every sample, those in the margins too, is known.
+    const Vec3i p = target.ijk(s) - level.before;
+    if (p.z < 0 || p.z >= example.size().z) continue;  // in the frame
+    const Vec3i q{(p.x % 10 + 10) % 10, (p.y % 8 + 8) % 8, p.z};
+    ASSERT_NEAR(target.values()[s], std::clamp(example.values[q], -4.0f, 4.0f), 1e-5);
+  }
+}
+
 TEST(Quilt, EveryPartOfTheExampleGetsItsTurn) {
   const PyramidLevel level = levelOf(balls({20, 20, 20}, 4, 5), {40, 40, 40});
   const auto used = [&](double price) {

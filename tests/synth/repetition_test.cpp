@@ -72,6 +72,16 @@ TEST(Repetition, NearestStepsAreAtMostHalfASampleOff) {
   }
 }
 
+TEST(Repetition, IsStretchedToAWholeNumberOfPeriodsWhereThatIsLittle) {
+  Repetition steps;
+  steps.basis = {{10.66, 0.02, 0}, {0, 5.97, 0}};
+  EXPECT_TRUE(steps.stretch(0, 64, 32, 0.75));
+  EXPECT_NEAR(steps.periodAlong(0), 64 / 6.0, 1e-9);
+  EXPECT_FALSE(steps.stretch(0, 70, 32, 0.75));  // 6.56 periods
+  EXPECT_NEAR(steps.periodAlong(0), 64 / 6.0, 1e-9);
+  EXPECT_FALSE(steps.stretch(2, 16, 8, 0.75));  // no period there
+}
+
 TEST(Repetition, IsNotSeenInWhatOnlyGoesOnOrIsRandom) {
   EXPECT_FALSE(findRepetition(balls({32, 32, 32}, 4, 1).values).any());
   EXPECT_FALSE(findRepetition(Array3D<float>({20, 20, 20}, 3.0f)).any());
