@@ -42,6 +42,9 @@ constexpr float kSeamTruncation = 4;
 /// Seams of the coarser levels, where a few samples reach far: pieces grow into large ones.
 constexpr SeamOptions kCoarseSeams{.reach = 16, .length = 0.05};
 constexpr SeamOptions kFineSeams{.passes = 1, .length = 0.005};
+/// A repetition is stretched, so that a result holds a whole number of it, where what is an example
+/// apart moves by no more than this, samples of the coarsest level.
+constexpr double kStretch = 0.75;
 /// How far beyond its box a periodic result's seams are evened out with it, in voxels.
 constexpr int kWrapMargin = 12;
 
