@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
+#include <vector>
 
+#include "synth/geometry/optimize.h"
 #include "synth/geometry/quilt.h"
 #include "tests/synth/fields.h"
 
@@ -230,6 +233,33 @@ TEST(Rearrange, IsNothingWhereNoAxisWillDo) {
     object.values.values()[s] = static_cast<float>(std::clamp(r - 8, -4.0, 4.0));
   }
   EXPECT_TRUE(rearrange(levelOf(object), options(0)).empty());
+}
+
+TEST(Rearrange, ResultsOfTheExamplesSizeAreNearlyAllHalves) {
+  // 44 samples: four windows of 11, the least. All but what is near the one joint is of two
+  // offsets.
+  const DistanceField example = balls({44, 44, 44}, 5, 6);
+  OptimizeOptions asked;
+  asked.size = example.size();
+  asked.stationary = StationaryAxes{};
+  const SynthesisResult result = synthesizeOptimized(example, asked);
+  std::map<std::tuple<int, int, int>, int> samples;
+  std::int64_t wrong = 0;
+  for (std::size_t s = 0; s < result.origins.count(); ++s) {
+    const Vec3i p = result.origins.ijk(s), cell = result.origins[p].cell();
+    const Vec3i d = cell - p;
+    ++samples[{d.x, d.y, d.z}];
+    wrong += (result.field.values[p] < 0) != (example.values[cell] < 0);
+  }
+  EXPECT_EQ(wrong, 0);
+  std::vector<int> counts;
+  for (const auto& [d, count] : samples) counts.push_back(count);
+  std::sort(counts.rbegin(), counts.rend());
+  ASSERT_GE(counts.size(), 2u);
+  const double all = static_cast<double>(result.origins.count());
+  EXPECT_GT((counts[0] + counts[1]) / all, 0.75);
+  EXPECT_GT(counts[1] / all, 0.15);
+  EXPECT_EQ(samples.count({0, 0, 0}), 0u);
 }
 
 TEST(Rearrange, SameSeedSameBytesAtAnyNumberOfThreads) {
