@@ -37,11 +37,14 @@ constexpr int kFirstIterations = 8, kIterations = 2;
 constexpr int kStride = 2;
 /// Seams whose two sides differ by more than this, in voxels, are optimised away.
 constexpr double kBadSeam = 2;
-/// Seams see distances up to here, in voxels: one through air or through solid is free.
+/// Seams of the coarser levels see distances up to here, in voxels: one through air or through
+/// solid is free.
 constexpr float kSeamTruncation = 4;
 /// Seams of the coarser levels, where a few samples reach far: pieces grow into large ones.
 constexpr SeamOptions kCoarseSeams{.reach = 16, .length = 0.05};
-constexpr SeamOptions kFineSeams{.passes = 1, .length = 0.005};
+/// Those of the result: many small steps rather than a few that show. What is copied is near
+/// enough to what was wanted.
+constexpr SeamOptions kFineSeams{.fidelity = 0, .length = 0.005, .slope = 2, .squared = true};
 /// A repetition is stretched, so that a result holds a whole number of it, where what is an example
 /// apart moves by no more than this, samples of the coarsest level.
 constexpr double kStretch = 0.75;
@@ -300,7 +303,6 @@ class Assembly {
     }
     Array3D<float> copied = sheet_.field.values;
     for (float& v : copied.values()) v /= static_cast<float>(sheet_.field.voxelSize);
-    copied = clamped(std::move(copied), kSeamTruncation);
     SeamOptions seams = kFineSeams;
     if (options_.kept) seams.fixed = &*options_.kept;
     if (!sheet_.usable.empty()) seams.usable = &sheet_.usable;
@@ -310,8 +312,8 @@ class Assembly {
       seams.air = &air;
     }
     alignPieces(copied, origins, 1, seams);
-    refineAround(copied, clamped(withoutMargins(level, target), kSeamTruncation), options_.periodic,
-                 seams, origins, progress);
+    refineAround(copied, withoutMargins(level, target), options_.periodic, seams, origins,
+                 progress);
     if (progress.cancelled()) {
       result.status = SynthesisStatus::Cancelled;
       return result;

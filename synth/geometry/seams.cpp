@@ -19,7 +19,10 @@ namespace {
 constexpr std::array<Vec3i, 6> kSteps{
     {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 
-std::int64_t millionths(double cost) { return std::llround(cost * 1e6); }
+/// In millionths. (As fast as it gets: this is most of the work.)
+std::int64_t rounded(double cost) {
+  return static_cast<std::int64_t>(cost * 1e6 + (cost < 0 ? -0.5 : 0.5));
+}
 
 /// What the terms of the energy cost, for samples of the result and offsets into the example.
 class SeamEnergy {
@@ -36,20 +39,31 @@ class SeamEnergy {
   bool fixed(const Vec3i& x) const { return options_.fixed && (*options_.fixed)[x]; }
 
   std::int64_t sample(const Vec3i& x, const Vec3i& offset) const {
-    const double d = copied(x, offset) - target_[x];
-    return millionths(options_.fidelity * d * d);
+    const double d = limited(copied(x, offset)) - limited(target_[x]);
+    return rounded(options_.fidelity * d * d);
   }
   std::int64_t face(const Vec3i& x, const Vec3i& a, const Vec3i& y, const Vec3i& b) const {
     if (a == b) return 0;
-    const double here = std::abs(copied(x, a) - copied(x, b));
-    const double there = std::abs(copied(y, a) - copied(y, b));
-    // Rounded one by one, so that the triangle inequality, which cuts rest on, survives rounding.
-    return millionths(here) + millionths(there) + millionths(options_.length);
+    const double xa = copied(x, a), xb = copied(x, b), ya = copied(y, a), yb = copied(y, b);
+    // Rounded before they are compared: so a metric it is, which cuts rest on, to the last digit.
+    const std::int64_t here = std::abs(rounded(limited(xa)) - rounded(limited(xb)));
+    const std::int64_t there = std::abs(rounded(limited(ya)) - rounded(limited(yb)));
+    const std::int64_t slopes =
+        std::abs(rounded(options_.slope * (xa - ya)) - rounded(options_.slope * (xb - yb)));
+    std::int64_t difference = here + there + slopes;
+    if (options_.squared) {
+      const double units = static_cast<double>(difference) * 1e-6;
+      difference = rounded(units * units);
+    }
+    return difference + rounded(options_.length);
   }
 
  private:
   float copied(const Vec3i& x, const Vec3i& offset) const {
     return example_[example_.clamped(x + offset)];
+  }
+  double limited(double value) const {
+    return std::clamp(value, -options_.truncation, options_.truncation);
   }
 
   const Array3D<float>& example_;
@@ -143,9 +157,11 @@ void expand(const Piece& piece, const SeamEnergy& energy, int reach, Origins& or
       if (m < 0) {
         difference += energy.face(x, piece.offset, y, other) - energy.face(x, own, y, other);
       } else if (direction % 2 == 0) {
-        const std::int64_t keep = energy.face(x, own, y, other);
         const std::int64_t taken = energy.face(x, own, y, piece.offset);    // y is taken
         const std::int64_t takes = energy.face(x, piece.offset, y, other);  // x is taken
+        // A capacity cannot be below 0. Counting what is there as cheaper, and nothing as dearer,
+        // a move that pays in the cut pays even more in truth.
+        const std::int64_t keep = std::min(energy.face(x, own, y, other), taken + takes);
         difference += takes - keep;
         cut.addTerminal(m, -takes);
         cut.connect(static_cast<int>(n), m, direction, taken + takes - keep, 0);

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "sdf/height_map.h"
 #include "synth/geometry/broken_pieces.h"
+#include "synth/geometry/even_seams.h"
 #include "synth/geometry/repetition.h"
 #include "tests/synth/fields.h"
 
@@ -31,7 +32,7 @@ OptimizeOptions sized(const Vec3i& size) {
 
 /// The samples whose side, or away from seams whose value, is not the example's at their origin.
 std::int64_t samplesWrong(const DistanceField& example, const SynthesisResult& result) {
-  constexpr int kReach = 4;  // of the evening of seams
+  const int reachOfSeams = EvenSeamsOptions{}.reach;
   const Origins& origins = result.origins;
   if (origins.size() != result.field.size()) return volume(result.field.size());
   std::int64_t wrong = 0, compared = 0;
@@ -42,7 +43,7 @@ std::int64_t samplesWrong(const DistanceField& example, const SynthesisResult& r
     wrong += (there < 0) != (here < 0);
     // A box holds all samples within so many steps.
     bool seam = false;
-    const Vec3i reach{kReach, kReach, kReach};
+    const Vec3i reach{reachOfSeams, reachOfSeams, reachOfSeams};
     const Vec3i low = max(p - reach, Vec3i{0, 0, 0});
     const Vec3i high = min(p + reach, origins.size() - Vec3i{1, 1, 1});
     for (int k = low.z; k <= high.z && !seam; ++k) {

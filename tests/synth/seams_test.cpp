@@ -64,8 +64,8 @@ TEST(SeamCost, IsZeroWithinOnePieceThatIsAsWanted) {
 }
 
 TEST(SeamCost, IsTheSumOverFacesAndSamples) {
-  // Two samples, of offsets 0 and 2: |E(0) - E(2)| + |E(1) - E(3)|, the length, the square of what
-  // is wanted less what is there.
+  // Two samples, of offsets 0 and 2: |E(0) - E(2)| + |E(1) - E(3)|, the slopes' difference |(E(0) -
+  // E(1)) - (E(2) - E(3))| = 3, the length, the square of what is wanted less what is there.
   Array3D<float> example({4, 1, 1});
   const float values[] = {0, 3, 1, 7};
   std::copy(std::begin(values), std::end(values), example.data());
@@ -78,8 +78,40 @@ TEST(SeamCost, IsTheSumOverFacesAndSamples) {
   SeamOptions options;
   options.length = 0.25;
   options.fidelity = 0.5;
+  options.slope = 0.5;
   EXPECT_EQ(seamCost(example, target, origins, options),
-            1000000 * 1 + 1000000 * 4 + 250000 + 2000000);
+            1000000 * 1 + 1000000 * 4 + 1500000 + 250000 + 2000000);
+  options.squared = true;
+  EXPECT_EQ(seamCost(example, target, origins, options), 42250000 + 250000 + 2000000);
+  // 3 and 7 count as 2, in slopes as what they are.
+  options.truncation = 2;
+  EXPECT_EQ(seamCost(example, target, origins, options), 6250000 + 250000 + 2000000);
+}
+
+/// The cost of a face between two samples of these offsets, without its length.
+std::int64_t faceCost(const Array3D<float>& example, const Vec3i& a, const Vec3i& b, bool squared) {
+  Origins origins({2, 1, 1});
+  origins(0, 0, 0) = Origin(a);
+  origins(1, 0, 0) = Origin(b + Vec3i{1, 0, 0});
+  return seamCost(example, Array3D<float>({2, 1, 1}), origins,
+                  {.fidelity = 0, .length = 0, .squared = squared});
+}
+
+TEST(SeamCost, IsAMetricOfOffsetsUnlessSquared) {
+  const Array3D<float> example = balls({24, 24, 24}, 5, 3).values;
+  const Random random(5);
+  int squaredFail = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    Vec3i offset[3];
+    for (int n = 0; n < 9; ++n) offset[n / 3][n % 3] = static_cast<int>(random.below(23, trial, n));
+    const auto [a, b, c] = offset;
+    EXPECT_EQ(faceCost(example, a, b, false), faceCost(example, b, a, false));
+    EXPECT_LE(faceCost(example, a, c, false),
+              faceCost(example, a, b, false) + faceCost(example, b, c, false));
+    squaredFail += faceCost(example, a, c, true) >
+                   faceCost(example, a, b, true) + faceCost(example, b, c, true);
+  }
+  EXPECT_GT(squaredFail, 100);
 }
 
 TEST(RefineSeams, NeverRaisesTheCost) {
@@ -88,6 +120,7 @@ TEST(RefineSeams, NeverRaisesTheCost) {
     SeamOptions options;
     options.passes = 1;
     options.reach = 1 + static_cast<int>(seed) * 2;
+    options.squared = seed % 2 == 1;
     std::int64_t cost = seamCost(p.example, p.target, p.origins, options);
     const std::int64_t first = cost;
     for (int pass = 0; pass < 3; ++pass) {
@@ -133,6 +166,43 @@ TEST(RefineSeams, FindsTheWayThroughAir) {
   EXPECT_EQ(seamCost(example, target, origins, options), 0);
   EXPECT_EQ(origins(0, 7, 7), Origin({30, 7, 7}));  // the left part is still there
   EXPECT_EQ(origins(23, 7, 7), Origin({23, 7, 7}));
+}
+
+TEST(RefineSeams, FindsWhereSlopesAgree) {
+  // Far from any surface, where only slopes count: the left part (example samples 24 on) rises by
+  // 0.5 a sample; the right part falls by 0.3, but for the samples 6 to 9, where it rises like the
+  // left one. The seam is at 15. The
+  // left part cannot reach beyond 20, where the example ends.
+  const Vec3i size{24, 6, 6};
+  Array3D<float> example({44, 6, 6});
+  for (std::size_t s = 0; s < example.count(); ++s) {
+    const int x = example.ijk(s).x;
+    const double v = x >= 24  ? 20 + 0.5 * (x - 24)
+                     : x <= 6 ? 30 - 0.3 * x
+                     : x <= 9 ? 28.2 + 0.5 * (x - 6)
+                              : 29.7 - 0.3 * (x - 9);
+    example.values()[s] = static_cast<float>(v);
+  }
+  for (const bool squared : {false, true}) {
+    Origins origins(size);
+    Array3D<float> target(size, 20);
+    for (std::size_t s = 0; s < origins.count(); ++s) {
+      const Vec3i p = origins.ijk(s);
+      origins[p] = Origin(p.x < 15 ? p + Vec3i{24, 0, 0} : p);
+    }
+    SeamOptions options{.reach = 12, .fidelity = 0, .length = 0, .squared = squared};
+    options.slope = 0;
+    EXPECT_EQ(seamCost(example, target, origins, options), 0);
+    options.slope = 1;
+    EXPECT_GT(seamCost(example, target, origins, options), 36 * 600000);
+    refineSeams(example, target, origins, options);
+    // Of 36 faces, each with what floats of 20 to 30 are off by.
+    EXPECT_LT(seamCost(example, target, origins, options), 36 * 20);
+    for (int x = 0; x < size.x; ++x) {
+      const bool right = origins(x, 3, 3) == Origin({x, 3, 3});
+      EXPECT_TRUE(x < 7 ? !right : x < 9 || right) << x;
+    }
+  }
 }
 
 /// Two halves of a field that repeats after 9 samples, the right one `off` samples out of step.
