@@ -201,12 +201,6 @@ std::optional<SurfacePoint> ExampleSurface::closest(const Vec3d& point,
   }
 }
 
-double ExampleSurface::distance(const Vec3d& point, std::uint32_t triangle) const {
-  const auto& [a, b, c] = data_->triangles[triangle].corners;
-  const auto weights = closestWeights(point, a, b, c);
-  return length(a * weights[0] + b * weights[1] + c * weights[2] - point);
-}
-
 const Vec3d& ExampleSurface::normal(std::uint32_t triangle) const {
   return data_->triangles[triangle].normal;
 }

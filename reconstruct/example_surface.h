@@ -50,9 +50,6 @@ class ExampleSurface {
   /// Unit normal of a triangle; zero for one without area.
   const Vec3d& normal(std::uint32_t triangle) const;
 
-  /// How far a point is from a triangle.
-  double distance(const Vec3d& point, std::uint32_t triangle) const;
-
  private:
   struct Data;
   std::unique_ptr<Data> data_;

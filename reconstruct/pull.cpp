@@ -102,48 +102,18 @@ std::optional<Match> OriginPullView::matchUnder(const OriginMotion& motion, cons
   return nearest(motion, field_.index(position), normal, radius, groups, group);
 }
 
-OriginPullView::Around OriginPullView::around(const Vec3d& index) const {
-  Around around;
-  for (int a = 0; a < 3; ++a) {
-    const int last = origins_.size()[a] - 1;
-    const double center = std::clamp(index[a], 0.0, static_cast<double>(last));
-    around.center[a] = center;
-    around.low[a] = std::max(0, static_cast<int>(std::ceil(center - reach_)));
-    around.high[a] = std::min(last, static_cast<int>(std::floor(center + reach_)));
-    around.middle[a] = static_cast<int>(center);
-  }
-  return around;
-}
-
-std::optional<OriginMotion> OriginPullView::onlyMotion(const Vec3d& position) const {
-  const auto [center, low, high, middle] = around(field_.index(position));
-  const OriginMotion motion = motionAt(origins_, middle);
-  if (!mixed_[middle]) return motion;
-  for (int k = low.z; k <= high.z; ++k) {
-    for (int j = low.y; j <= high.y; ++j) {
-      for (int i = low.x; i <= high.x; ++i) {
-        if (!(motionAt(origins_, {i, j, k}) == motion)) return std::nullopt;
-      }
-    }
-  }
-  return motion;
-}
-
-double OriginPullView::cost(const OriginMotion& motion, const Vec3d& position, const Vec3d& normal,
-                            std::uint32_t triangle) const {
-  const DistanceField& exampleField = examples_[motion.example].field;
-  const ExampleSurface& surface = surfaces_[motion.example];
-  const Vec3d point = exampleField.position(motion.toExample(field_.index(position)));
-  const double away = surface.distance(point, triangle) / exampleField.voxelSize;
-  if (normal == Vec3d{}) return away;
-  const Vec3d facing = motion.directionToExample(normal);
-  return away + kFacingCost * (1 - dot(surface.normal(triangle), facing)) / 2;
-}
-
 void OriginPullView::match(const Vec3d& position, const Vec3d& normal, Matches& out,
                            double radius) const {
   const Vec3d at = field_.index(position);
-  const auto [center, low, high, middle] = around(at);
+  Vec3d center;
+  Vec3i low, high;
+  for (int a = 0; a < 3; ++a) {
+    center[a] = std::clamp(at[a], 0.0, origins_.size()[a] - 1.0);
+    low[a] = std::max(0, static_cast<int>(std::ceil(center[a] - reach_)));
+    high[a] = std::min(origins_.size()[a] - 1, static_cast<int>(std::floor(center[a] + reach_)));
+  }
+  const Vec3i middle{static_cast<int>(center.x), static_cast<int>(center.y),
+                     static_cast<int>(center.z)};
   if (!mixed_[middle]) {
     const auto match = nearest(motionAt(origins_, middle), at, normal, radius, {}, 0);
     out.count = 0;

@@ -65,20 +65,7 @@ class OriginPullView {
                                   const Vec3d& normal, std::span<const std::uint32_t> groups = {},
                                   std::uint32_t group = 0, double radius = kAnywhere) const;
 
-  /// The motion under which alone `match` would look for `position`, if there is but one.
-  std::optional<OriginMotion> onlyMotion(const Vec3d& position) const;
-
-  /// What triangle `triangle` of the motion's example costs at a position, in voxels.
-  double cost(const OriginMotion& motion, const Vec3d& position, const Vec3d& normal,
-              std::uint32_t triangle) const;
-
  private:
-  /// The samples within reach of a position.
-  struct Around {
-    Vec3d center;
-    Vec3i low, high, middle;
-  };
-  Around around(const Vec3d& index) const;
   std::optional<Match> nearest(const OriginMotion& motion, const Vec3d& index, const Vec3d& normal,
                                double radius, std::span<const std::uint32_t> groups,
                                std::uint32_t group) const;

@@ -20,7 +20,6 @@
 #include "reconstruct/adjacency.h"
 #include "reconstruct/material_borders.h"
 #include "reconstruct/material_pieces.h"
-#include "reconstruct/near_materials.h"
 #include "reconstruct/pull.h"
 #include "reconstruct/texture_charts.h"
 
@@ -103,57 +102,6 @@ struct TriangleSources {
   std::vector<float> cost;              // voxels; infinity: no match, and no triangle
 };
 
-/// What is known of the examples' materials without a search.
-class KnownMaterials {
- public:
-  KnownMaterials(const Attributes& attributes, std::span<const ExampleView> examples,
-                 const DistanceField& field, const OriginPullView& pull)
-      : field_(field), pull_(pull), attributes_(attributes) {
-    const std::span<const std::uint32_t> all(attributes.mesh->triangleMaterials);
-    for (std::size_t e = 0; e < examples.size(); ++e) {
-      const std::size_t count = examples[e].mesh.triangles.size();
-      const DistanceField& example = examples[e].field;
-      const int cells = example.values.count() <= kManySamples ? kCells : 1;
-      near_.emplace_back(examples[e].mesh, all.subspan(attributes.first[e], count), example,
-                         kKnownReach, cells);
-      count_.push_back(static_cast<std::uint32_t>(count));
-    }
-  }
-
-  /// A triangle of the joined example, no farther than `limit`, with the material of what `match`
-  /// would find under the motion alone; `kNone` where this cannot be told. `lately`: a triangle
-  /// that may do.
-  std::uint32_t standIn(const OriginMotion& motion, const Vec3d& position, const Vec3d& normal,
-                        double limit, std::uint32_t lately = kNone) const {
-    const Vec3d place = motion.toExample(field_.index(position));
-    const NearMaterials& near = near_[motion.example];
-    if (near.only(place) == NearMaterials::kUnknown) return kNone;
-    // What is found costs no more than what is at hand, so it is as near. A hair less, for what
-    // rounding may add.
-    const double most = std::min(limit, kKnownReach) * (1 - 1e-9);
-    const std::uint32_t first = attributes_.first[motion.example];
-    for (const std::uint32_t t : {near.triangleNear(place), lately - first}) {
-      if (t < count_[motion.example] && pull_.cost(motion, position, normal, t) <= most) {
-        return first + t;
-      }
-    }
-    return kNone;
-  }
-
- private:
-  /// How far around a place materials are known, voxels, and in how many cells along a voxel, but
-  /// for examples of more samples than this.
-  static constexpr double kKnownReach = 0.4;
-  static constexpr int kCells = 2;
-  static constexpr std::size_t kManySamples = 4000000;
-
-  const DistanceField& field_;
-  const OriginPullView& pull_;
-  const Attributes& attributes_;
-  std::vector<NearMaterials> near_;
-  std::vector<std::uint32_t> count_;  // of triangles
-};
-
 /// The heaviest match; by material, the heaviest of those of the material with most weight.
 const Match& chooseMatch(const Matches& matches, const Attributes& attributes, bool byMaterial) {
   const Match* chosen = matches.begin();
@@ -193,11 +141,10 @@ bool isCut(const TriangleMesh& mesh, std::size_t t, const DistanceField& field) 
   return false;
 }
 
-/// With `known` only what is near enough to be a source, and instead of the best triangle any of
-/// its material; without, matches from however far.
+/// `anywhere`: matches from however far; else only what is near enough to be a source.
 TriangleSources matchTriangles(const TriangleMesh& result, const DistanceField& field,
                                const OriginPullView& pull, const Attributes& attributes,
-                               bool byMaterial, const KnownMaterials* known) {
+                               bool byMaterial, bool anywhere) {
   const std::size_t count = result.triangles.size();
   TriangleSources sources;
   sources.motion.resize(count);
@@ -205,22 +152,11 @@ TriangleSources matchTriangles(const TriangleMesh& result, const DistanceField& 
   sources.cost.resize(count);
   parallelFor(0, count, kGrain, [&](std::size_t t0, std::size_t t1) {
     Matches matches;
-    std::uint32_t lately = kNone;
     for (std::size_t t = t0; t < t1; ++t) {
-      const double limit = !known                    ? OriginPullView::kAnywhere
+      const double limit = anywhere                  ? OriginPullView::kAnywhere
                            : isCut(result, t, field) ? kFarthestOfCut
                                                      : kFarthest;
-      const Vec3d middle = middleOf(result, t), normal = normalized(areaNormal(result, t));
-      if (const auto motion = known ? pull.onlyMotion(middle) : std::nullopt) {
-        const std::uint32_t standIn = known->standIn(*motion, middle, normal, limit, lately);
-        if (standIn != kNone) {
-          sources.motion[t] = *motion;
-          sources.triangle[t] = standIn;
-          sources.cost[t] = static_cast<float>(limit);
-          continue;
-        }
-      }
-      pull.match(middle, normal, matches, limit);
+      pull.match(middleOf(result, t), normalized(areaNormal(result, t)), matches, limit);
       sources.triangle[t] = kNone;
       sources.cost[t] = std::numeric_limits<float>::infinity();
       if (matches.count == 0) continue;
@@ -229,7 +165,6 @@ TriangleSources matchTriangles(const TriangleMesh& result, const DistanceField& 
       sources.motion[t] = chosen.motion;
       sources.triangle[t] = attributes.triangle(chosen);
       sources.cost[t] = static_cast<float>(chosen.cost);
-      lately = sources.triangle[t];
     }
   });
   return sources;
@@ -373,8 +308,7 @@ std::vector<std::uint32_t> materialsByPieces(const TriangleMesh& result,
 /// `kFarthest`.
 void transferPieces(TriangleMesh& result, const OriginPullView& pull, const Attributes& attributes,
                     std::span<const ExampleView> examples, double voxelSize,
-                    const TransferOptions& options, const KnownMaterials& known,
-                    const TriangleSources& sources) {
+                    const TransferOptions& options, const TriangleSources& sources) {
   const TriangleMesh& example = *attributes.mesh;
   const std::size_t count = result.triangles.size();
   const std::vector<std::uint32_t> mates = mateHalfedges(result.triangles, result.positions.size());
@@ -403,14 +337,9 @@ void transferPieces(TriangleMesh& result, const OriginPullView& pull, const Attr
     const std::vector<std::uint32_t> settled = result.triangleMaterials;
     cutMaterialBorders(result, [&](const Vec3d& point, const Vec3d& normal, std::uint32_t t) {
       if (own[t] == kNone) return settled[t];
-      const OriginMotion& motion = sources.motion[t];
-      std::uint32_t source = known.standIn(motion, point, normal, kFarthest);
-      if (source == kNone) {
-        const auto match = pull.matchUnder(motion, point, normal, {}, 0, kFarthest);
-        if (!match) return settled[t];
-        source = attributes.triangle(*match);
-      }
-      const std::uint32_t material = example.triangleMaterials[source];
+      const auto match = pull.matchUnder(sources.motion[t], point, normal, {}, 0, kFarthest);
+      if (!match) return settled[t];
+      const std::uint32_t material = example.triangleMaterials[attributes.triangle(*match)];
       if (material == own[t]) return settled[t];
       for (const std::uint32_t v : triangles[t]) {
         for (const std::uint32_t corner : corners.at(v)) {
@@ -605,18 +534,15 @@ void transferAppearance(TriangleMesh& result, const DistanceField& field, const 
 
   const OriginPullView pull(field, origins, examples, options.blend);
   TriangleSources sources;
-  std::optional<KnownMaterials> known;
   const bool manyMaterials = plan.materials && !plan.oneMaterial;
   if (plan.coordinates || manyMaterials) {
     progress.report("taking materials from the example", 0);
-    if (manyMaterials && !plan.coordinates) known.emplace(attributes, examples, field, pull);
-    sources =
-        matchTriangles(result, field, pull, attributes, manyMaterials, known ? &*known : nullptr);
+    sources = matchTriangles(result, field, pull, attributes, manyMaterials, plan.coordinates);
   }
   if (manyMaterials && plan.coordinates) {
     transferMaterials(result, pull, attributes, examples, options, sources);
   } else if (manyMaterials) {
-    transferPieces(result, pull, attributes, examples, field.voxelSize, options, *known, sources);
+    transferPieces(result, pull, attributes, examples, field.voxelSize, options, sources);
   } else if (plan.materials) {
     result.triangleMaterials.assign(result.triangles.size(), example.triangleMaterials.front());
   }
