@@ -7,6 +7,8 @@ target_compile_options(exemplar_build_options INTERFACE
   # GCC 12 reports overlaps in std::string that cannot be (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   $<$<BOOL:${EXEMPLAR_WERROR}>:-Werror>
+  # GCC 12 packs two doubles that go to float and back, and leaves them as they were.
+  $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
   # Same input, same bytes: no fused multiply-add where the source has a product and a sum.
   -ffp-contract=off)
 if(EXEMPLAR_SANITIZE)

@@ -9,11 +9,17 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/random.h"
+#include "search/nearest_neighbor_field.h"
+#include "synth/geometry/patch_vote.h"
 
 namespace exemplar {
 namespace {
 
 constexpr float kLimit = 4;
+constexpr std::uint32_t kRepairStream = 0x0b74;
+/// Of PatchMatch, from a field that is nearly right.
+constexpr int kIterations = 2;
 
 }  // namespace
 
@@ -80,6 +86,39 @@ Array3D<std::uint8_t> samplesCovered(const Array3D<std::uint8_t>& patches, const
     marked = std::move(next);
   }
   return marked;
+}
+
+std::int64_t repairSeams(const PyramidLevel& level, const RepairOptions& options,
+                         PyramidSources& sources, Array3D<float>& target,
+                         const Progress& progress) {
+  const Vec3i size = level.framedTarget();
+  NearestNeighborFieldOptions search;
+  search.patch = level.patch;
+  search.method = NeighborMethod::PatchMatch;
+  search.stride = min(Vec3i{options.stride, options.stride, options.stride}, level.patch);
+  search.iterations = kIterations;
+  search.window = options.window;
+  NearestNeighborField field = fieldOf(level, sources, search.stride);
+  const Array3D<std::uint8_t> wanted = patchesCovering(
+      badSeams(level, sources, options.limit), level.patch, search.stride, field.position.size());
+  const std::int64_t many = std::count(wanted.values().begin(), wanted.values().end(), 1);
+  if (many == 0) return 0;
+  search.wanted = &wanted;
+  for (int round = 0; round < options.rounds; ++round) {
+    search.seed = Random(options.seed, kRepairStream).bits(0, round);
+    const NearestNeighborField previous = std::move(field);
+    search.start = &previous;
+    field = nearestNeighborField({level.source}, {target}, search, progress);
+    if (!field.complete || progress.cancelled()) return many;
+    target = vote(level, field, size);
+    pinTarget(level, options.truncation, target);
+  }
+  const Array3D<std::uint8_t> changed = samplesCovered(wanted, level.patch, search.stride, size);
+  const PyramidSources found = plurality(level, field, size, &changed);
+  for (std::size_t s = 0; s < sources.count(); ++s) {
+    if (changed.values()[s]) sources.values()[s] = found.values()[s];
+  }
+  return many * options.rounds;
 }
 
 }  // namespace exemplar

@@ -37,6 +37,22 @@ Covering covering(int p, int patch, int stride, int patches) {
 
 }  // namespace
 
+NearestNeighborField fieldOf(const PyramidLevel& level, const PyramidSources& sources,
+                             const Vec3i& stride) {
+  NearestNeighborField field;
+  const Vec3i last = sources.size() - level.patch;
+  const Vec3i lastMatch = level.source.size() - level.patch;
+  const Vec3i half{level.patch.x / 2, level.patch.y / 2, level.patch.z / 2};
+  field.stride = stride;
+  field.position =
+      Array3D<Vec3i>({last.x / stride.x + 1, last.y / stride.y + 1, last.z / stride.z + 1});
+  for (std::size_t s = 0; s < field.position.count(); ++s) {
+    const Vec3i middle = scaled(field.position.ijk(s), stride) + half;
+    field.position.values()[s] = max(Vec3i{0, 0, 0}, min(sources[middle] - half, lastMatch));
+  }
+  return field;
+}
+
 Array3D<float> vote(const PyramidLevel& level, const NearestNeighborField& field,
                     const Vec3i& size) {
   Array3D<float> target(size);
@@ -76,7 +92,7 @@ Array3D<float> vote(const PyramidLevel& level, const NearestNeighborField& field
 }
 
 PyramidSources plurality(const PyramidLevel& level, const NearestNeighborField& field,
-                         const Vec3i& size) {
+                         const Vec3i& size, const Array3D<std::uint8_t>* where) {
   PyramidSources sources(size);
   const auto gx = gaussian(level.patch.x), gy = gaussian(level.patch.y),
              gz = gaussian(level.patch.z);
@@ -89,6 +105,7 @@ PyramidSources plurality(const PyramidLevel& level, const NearestNeighborField& 
       const Covering cy = covering(j, level.patch.y, field.stride.y, n.y);
       const Covering cz = covering(k, level.patch.z, field.stride.z, n.z);
       for (int i = 0; i < size.x; ++i) {
+        if (where && !(*where)(i, j, k)) continue;
         const Covering cx = covering(i, level.patch.x, field.stride.x, n.x);
         votes.clear();
         for (int c = cz.begin; c < cz.end; ++c) {

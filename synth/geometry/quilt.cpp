@@ -159,13 +159,14 @@ class Quilt {
       for (; length - next >= std::max(1, side / 3); next += side) joints.push_back(next);
     }
     joints.push_back(length);
-    // The first and the last may be more than the example has, or leave it no room to be in step.
+    // The first and the last may be more than the example has, or leave it no room to be in step:
+    // what is over becomes a block of its own, at the result's side.
     const int longest = std::max(1, example_[axis] - options_.repetition.cell()[axis]);
     for (std::size_t n = 1; n < joints.size(); ++n) {
-      const int first = joints[n - 1], over = joints[n] - first;
-      if (over > longest) {
-        joints.insert(joints.begin() + static_cast<std::ptrdiff_t>(n), first + (over + 1) / 2);
-      }
+      const int first = joints[n - 1], over = joints[n] - first - longest;
+      if (over <= 0) continue;
+      const int joint = n == 1 && over < longest ? over : first + longest;
+      joints.insert(joints.begin() + static_cast<std::ptrdiff_t>(n), joint);
     }
     return joints;
   }

@@ -7,6 +7,9 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "synth/geometry/level_seams.h"
+#include "synth/geometry/quilt.h"
+#include "synth/geometry/rearrange.h"
 
 namespace exemplar {
 namespace {
@@ -22,6 +25,9 @@ constexpr double kSlope = 1;
 constexpr double kObjectShift = 0.16;
 /// How often a block that may not be copied is drawn again; the second half of times from anywhere.
 constexpr std::uint32_t kDraws = 32;
+/// A repetition is stretched, so that a result holds a whole number of it, where what is an example
+/// apart moves by no more than this, samples of the coarsest level.
+constexpr double kStretch = 0.75;
 
 /// A sample's place along an axis on which the example is not stationary.
 int proportional(int p, int target, int source) {
@@ -121,6 +127,58 @@ PyramidSources startFromRandomBlocks(const PyramidLevel& level, const Stationary
   return sources;
 }
 
+Repetition repetitionOf(const PyramidLevel& level) {
+  Array3D<float> example(level.partSize[0]);
+  for (std::size_t s = 0; s < example.count(); ++s) {
+    example.values()[s] = level.source[example.ijk(s) + level.first[0]];
+  }
+  Repetition repetition = findRepetition(example);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!level.periodic[axis]) continue;
+    const int length = level.targetSize[axis], apart = level.partSize[0][axis];
+    if (!repetition.stretch(axis, length, apart, kStretch)) return {};
+  }
+  return repetition;
+}
+
+void keepInStep(const PyramidLevel& level, const Repetition& repetition, PyramidSources& sources) {
+  if (!repetition.any()) return;
+  for (std::size_t s = 0; s < sources.count(); ++s) {
+    const Vec3i p = sources.ijk(s);
+    const Vec3i step = repetition.nearest(sources.values()[s] - p - level.inPlace());
+    sources.values()[s] = level.source.clamped(p + level.inPlace() + step);
+  }
+}
+
+PyramidSources startFromQuilt(const PyramidLevel& level, const StationaryAxes& stationary,
+                              const Repetition& repetition, std::uint64_t seed, float air,
+                              const Progress& progress) {
+  QuiltOptions quilting;
+  quilting.seed = seed;
+  quilting.window = blockWindow(level, stationary);
+  quilting.repetition = repetition;
+  quilting.cut = [&](PyramidSources& sources) {
+    Array3D<float> target = gather(level, sources);
+    pinTarget(level, air, target);
+    cutSeams(level, target, sources, progress);
+  };
+  return quilt(level, quilting, progress);
+}
+
+PyramidSources startFromHalves(const PyramidLevel& level, int l, const StationaryAxes& stationary,
+                               std::uint64_t seed, float air, const Progress& progress) {
+  RearrangeOptions rearranging;
+  rearranging.seed = seed;
+  rearranging.stationary = stationary;
+  rearranging.window = std::max(2, rearranging.window >> l);
+  rearranging.cut = [&](PyramidSources& sources) {
+    Array3D<float> target = gather(level, sources);
+    pinTarget(level, air, target);
+    cutJoints(level, target, rearranging.window, sources, progress);
+  };
+  return rearrange(level, rearranging, progress);
+}
+
 int placeWindow(const PyramidLevel& level, int axis) {
   const double source = level.partSize[0][axis];
   const double stretch = std::abs(level.targetSize[axis] / source - 1);
@@ -133,7 +191,11 @@ Vec3i blockWindow(const PyramidLevel& level, const StationaryAxes& stationary) {
   Vec3i window;
   for (int axis = 0; axis < 3; ++axis) {
     const bool object = level.low[axis] > 0 && level.high[axis] > 0;
-    if (object && level.targetSize[axis] == n[axis]) {
+    // Air above, say, and below what the box cuts off: parts that moved would lose their ground.
+    const bool stands = (level.low[axis] > 0) != (level.high[axis] > 0);
+    if (stands && level.targetSize[axis] == n[axis]) {
+      window[axis] = 0;
+    } else if (object && level.targetSize[axis] == n[axis]) {
       const bool thin = 2 * n[axis] < longest;
       window[axis] = thin ? 0 : static_cast<int>(std::lround(n[axis] * kObjectShift));
     } else {
