@@ -16,13 +16,6 @@ namespace {
 using namespace testing;
 
 /// Sizes here are 7 + an even number, so that patches cover a target without more samples.
-PyramidLevel levelOf(const DistanceField& example, const Vec3i& size) {
-  PyramidOptions options;
-  options.size = size;
-  const std::vector<SourcePart> parts{{example, 0, 0, {}}};
-  return makeLevel(parts, 0, options);
-}
-
 /// Everything copied from `shift` further along x from the middle on.
 PyramidSources halves(const PyramidLevel& level, int shift) {
   PyramidSources sources(level.framedTarget());

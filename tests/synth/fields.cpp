@@ -91,6 +91,13 @@ DistanceField constant(const Vec3i& size, float value) {
   return fill(size, [&](const Vec3i&) { return value; });
 }
 
+PyramidLevel levelOf(const DistanceField& example, const Vec3i& size) {
+  PyramidOptions options;
+  options.size = size;
+  const std::vector<SourcePart> parts{{example, 0, 0, {}}};
+  return makeLevel(parts, 0, options);
+}
+
 std::int64_t samplesNotCopied(const DistanceField& example, const SynthesisResult& result) {
   if (result.origins.size() != result.field.size()) return volume(result.field.size());
   std::int64_t wrong = 0;

@@ -12,6 +12,7 @@
 #include "core/origin.h"
 #include "core/progress.h"
 #include "sdf/distance_field.h"
+#include "synth/geometry/pyramid.h"
 #include "synth/geometry/synthesize.h"
 
 /// Examples made from formulas, voxels of length 1, and checks of what every engine promises.
@@ -32,6 +33,9 @@ DistanceField lattice(const Vec3i& size, const std::array<Vec3d, 3>& steps, doub
 
 /// One value everywhere.
 DistanceField constant(const Vec3i& size, float value);
+
+/// The finest level of a result of this size from one example, not turned.
+PyramidLevel levelOf(const DistanceField& example, const Vec3i& size);
 
 /// The number of samples that are not what the example has at their origins, or have an origin that
 /// is not a cell of it.

@@ -18,13 +18,6 @@ namespace {
 
 using namespace testing;
 
-PyramidLevel levelOf(const DistanceField& example, const Vec3i& size) {
-  PyramidOptions options;
-  options.size = size;
-  const std::vector<SourcePart> parts{{example, 0, 0, {}}};
-  return makeLevel(parts, 0, options);
-}
-
 /// A wall with air around it and bricks that stand out of it.
 DistanceField wall() {
   DistanceField field = constant({24, 12, 24}, 0);

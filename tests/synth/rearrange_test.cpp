@@ -21,12 +21,7 @@ namespace {
 
 using namespace testing;
 
-PyramidLevel levelOf(const DistanceField& example, const Vec3i& size) {
-  PyramidOptions options;
-  options.size = size;
-  const std::vector<SourcePart> parts{{example, 0, 0, {}}};
-  return makeLevel(parts, 0, options);
-}
+using testing::levelOf;
 PyramidLevel levelOf(const DistanceField& example) { return levelOf(example, example.size()); }
 
 /// Windows of five samples, so that small examples are long enough.

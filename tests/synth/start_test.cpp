@@ -16,13 +16,6 @@ namespace {
 
 using namespace testing;
 
-PyramidLevel levelOf(const DistanceField& example, const Vec3i& size) {
-  PyramidOptions options;
-  options.size = size;
-  const std::vector<SourcePart> parts{{example, 0, 0, {}}};
-  return makeLevel(parts, 0, options);
-}
-
 constexpr StationaryAxes kAcross{true, true, false};
 
 TEST(BlockWindow, WhatStandsOnASideOfItsBoxStaysThere) {
