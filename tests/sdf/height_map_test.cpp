@@ -439,7 +439,8 @@ TEST(SdfToHeightMap, PutsTheNorthFirst) {
 }
 
 TEST(HeightMapFile, RealTerrainIsRead) {
-  const std::filesystem::path file = "../shared/data/terrain/bigtujunga_srtm_30m_400.pgm";
+  const std::filesystem::path file = std::filesystem::path(EXEMPLAR_SOURCE_DIR) /
+                                     "../shared/data/terrain/bigtujunga_srtm_30m_400.pgm";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << " beside the checkout";
   const HeightMap map = readHeightMap(file);
   EXPECT_EQ(map.width, 400);

@@ -582,7 +582,7 @@ TEST(MeshToSdf, RefusesMeshesThatAreNone) {
 }
 
 TEST(MeshToSdf, LeavesRealModelsWhole) {
-  const std::filesystem::path data = "../shared/data";
+  const std::filesystem::path data = std::filesystem::path(EXEMPLAR_SOURCE_DIR) / "../shared/data";
   struct Case {
     const char* file;
     int resolution;

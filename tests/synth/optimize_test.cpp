@@ -299,7 +299,8 @@ TEST(Optimize, WhereAnAxisIsNotStationaryPartsStillHoldTogether) {
 }
 
 TEST(Optimize, RealGroundThatSlopesHasNoCliffs) {
-  const std::filesystem::path file = "../shared/data/terrain/rockies_srtmgl3_240x144.pgm";
+  const std::filesystem::path file = std::filesystem::path(EXEMPLAR_SOURCE_DIR) /
+                                     "../shared/data/terrain/rockies_srtmgl3_240x144.pgm";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << " beside the checkout";
   const HeightMap map = readHeightMap(file, {.cellSize = 90, .heightScale = 0.0205});
   const DistanceField example = heightMapToSdf(map, {.resolution = 64, .halfWidth = 16});

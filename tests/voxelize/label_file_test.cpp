@@ -323,7 +323,7 @@ TEST(LabelFile, WhatAFormatCannotHoldIsRefusedAndNothingIsWritten) {
 }
 
 TEST(LabelFile, RealFilesAreReadWhereTheyAreAtHand) {
-  const fs::path data = "../shared/data/vox";
+  const fs::path data = fs::path(EXEMPLAR_SOURCE_DIR) / "../shared/data/vox";
   if (!fs::exists(data)) GTEST_SKIP() << "no sample files at " << data;
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(data)) {
