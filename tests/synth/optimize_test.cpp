@@ -153,8 +153,8 @@ TEST(Optimize, WhatRepeatsMeetsItsOtherSideInStep) {
   options.periodic = {true, true, false};
   const SynthesisResult result = synthesizeOptimized(example, options);
   const Array3D<float>& values = result.field.values;
-  // Neighbours across the faces differ no more than neighbours inside, or by a tenth of a voxel:
-  // there seams are cut once, inside mostly twice.
+  // Neighbours across the faces differ hardly more than neighbours inside: the worst pair by 1.26
+  // voxels, inside by 1.17. What lies beside the faces is held fixed while seams there are cut.
   double most = 0, across = 0;
   for (std::size_t s = 0; s < values.count(); ++s) {
     const Vec3i p = values.ijk(s);
