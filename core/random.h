@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 
+#include "core/random_streams.h"
+
 namespace exemplar {
 
 /// Random numbers that are a function of what they are for, and of nothing else: Philox4x32-10, a
@@ -13,12 +15,17 @@ namespace exemplar {
 /// 3", SC 2011, doi:10.1145/2063384.2063405). Neither the order of the calls nor the number of
 /// threads can change a number.
 ///
-/// `seed` is the user's; `stream` tells apart the places in the program that draw (each algorithm
-/// has constants of its own); `cell` is what the number is for (a sample's index, say); `draw`
-/// counts the numbers drawn for that cell.
+/// `seed` is the user's; `stream` distinguishes the places in the program that draw
+/// (`core/random_streams.h` names them all); `cell` is what the number is for (a sample's index,
+/// say); `draw` counts the numbers drawn for that cell. What is tried several times draws from a
+/// `fork` for each attempt.
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint32_t stream = 0) : seed_(seed), stream_(stream) {}
+
+  /// Numbers for attempt number `attempt` at the same thing, independent of these and of those of
+  /// other attempts.
+  Random fork(std::uint64_t attempt) const { return Random(bits(attempt), stream_); }
 
   /// 64 uniform bits.
   std::uint64_t bits(std::uint64_t cell, std::uint32_t draw = 0) const;

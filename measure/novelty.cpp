@@ -13,7 +13,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "measure/same_voxels.h"
-#include "measure/union_find.h"
+#include "core/disjoint_sets.h"
 
 namespace exemplar {
 namespace {
@@ -54,7 +54,7 @@ double verbatimRun(const Origins& origins, const DistanceField& example) {
                      " samples; regions of origins are measured up to 4,294,967,295 samples");
   requireMemory(static_cast<double>(origins.count()) * 8, "measuring regions of origins",
                 "measure a smaller result");
-  UnionFind regions(origins.count());
+  DisjointSets regions(origins.count());
   for (int k = 0; k < n.z; ++k)
     for (int j = 0; j < n.y; ++j)
       for (int i = 0; i < n.x; ++i) {
@@ -170,17 +170,6 @@ double copyDistance(const Occupancy& example, const Occupancy& result,
     best = std::max(best, *std::max_element(refined.begin(), refined.end()));
   }
   return 1 - best;
-}
-
-Vec3i turnedBack(const Vec3i& step, const Origin& origin) {
-  // The example was turned anticlockwise about z; its own step is the result's turned clockwise.
-  Vec3i s = step;
-  for (int turn = 0; turn < (origin.turns & 3); ++turn) s = {s.y, -s.x, s.z};
-  return s;
-}
-
-bool continues(const Origin& a, const Origin& b, const Vec3i& step) {
-  return a.example == b.example && a.turns == b.turns && b.cell() - a.cell() == turnedBack(step, a);
 }
 
 void requireOriginsFit(const Origins& origins, const DistanceField& example,

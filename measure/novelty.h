@@ -72,13 +72,6 @@ SurfaceUse surfaceUse(const Occupancy& example, const Origins& origins, int exam
 Novelty measureNovelty(const DistanceField& example, const DistanceField& result,
                        const Origins* origins = nullptr, int exampleIndex = 0);
 
-/// What a step in the result is in its example: turned back by the quarter turns of `origin`.
-Vec3i turnedBack(const Vec3i& step, const Origin& origin);
-
-/// Whether b, one `step` away from a in the result, is also where a's source goes on: the same
-/// example and turns, and cells that differ as the result's do.
-bool continues(const Origin& a, const Origin& b, const Vec3i& step);
-
 /// Throws `InputError` unless there is one origin for each sample of the result and each that is in
 /// example number `exampleIndex` is inside `example`.
 void requireOriginsFit(const Origins& origins, const DistanceField& example,

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "measure/union_find.h"
+#include "core/disjoint_sets.h"
 
 namespace exemplar {
 namespace {
@@ -22,7 +22,7 @@ struct Run {
   std::uint32_t id;
 };
 
-void appendRuns(const Occupancy& o, int y, int z, UnionFind& sets, std::vector<Run>& runs) {
+void appendRuns(const Occupancy& o, int y, int z, DisjointSets& sets, std::vector<Run>& runs) {
   const int n = o.size().x;
   for (int x = 0; x < n;) {
     const std::uint64_t cells = o.bits(x, y, z);
@@ -38,7 +38,7 @@ void appendRuns(const Occupancy& o, int y, int z, UnionFind& sets, std::vector<R
 
 /// Joins runs of neighbouring rows that share a face.
 void joinRows(const std::vector<Run>& runs, std::size_t a, std::size_t aEnd, std::size_t b,
-              std::size_t bEnd, UnionFind& sets) {
+              std::size_t bEnd, DisjointSets& sets) {
   while (a < aEnd && b < bEnd) {
     if (runs[a].x0 < runs[b].x1 && runs[b].x0 < runs[a].x1) sets.join(runs[a].id, runs[b].id);
     if (runs[a].x1 < runs[b].x1) {
@@ -67,7 +67,7 @@ double wholeShare(const std::vector<Component>& components) {
 
 std::vector<Component> connectedComponents(const Occupancy& occupancy) {
   const Vec3i n = occupancy.size();
-  UnionFind sets(0);
+  DisjointSets sets(0);
   std::vector<Run> runs;
   std::vector<std::size_t> rowStart;  // rows in order of y, then z
   for (int z = 0; z < n.z; ++z)

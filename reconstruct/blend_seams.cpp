@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "reconstruct/dilate.h"
-#include "reconstruct/origin_map.h"
+#include "core/origin.h"
 
 namespace exemplar {
 namespace {

@@ -17,7 +17,7 @@
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
 #include "reconstruct/manifold.h"
-#include "reconstruct/origin_map.h"
+#include "core/origin.h"
 #include "reconstruct/pull.h"
 #include "reconstruct/smooth.h"
 #include "reconstruct/stitch.h"

@@ -14,7 +14,6 @@
 #include "core/origin.h"
 #include "mesh/triangle_mesh.h"
 #include "reconstruct/example_surface.h"
-#include "reconstruct/origin_map.h"
 #include "reconstruct/transfer.h"
 #include "sdf/distance_field.h"
 

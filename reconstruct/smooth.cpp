@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
-#include "reconstruct/origin_map.h"
+#include "core/origin.h"
 
 namespace exemplar {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "core/error.h"
 #include "measure/novelty.h"
-#include "measure/union_find.h"
-#include "reconstruct/origin_map.h"
+#include "core/disjoint_sets.h"
+#include "core/origin.h"
 
 namespace exemplar {
 namespace {
@@ -225,7 +225,7 @@ void markRepeats(const DistanceField& example, const std::vector<std::size_t>& e
 void markCopies(std::size_t exampleSurface, const std::vector<std::size_t>& surface,
                 const Origins& origins, const Eye& eye, const Array3D<float>& grid,
                 const MarkOptions& options, std::vector<Mark>& marks) {
-  UnionFind regions(origins.count());
+  DisjointSets regions(origins.count());
   for (std::size_t n = 0; n < origins.count(); ++n) {
     const Vec3i a = origins.ijk(n);
     for (int axis = 0; axis < 3; ++axis) {

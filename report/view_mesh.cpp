@@ -16,7 +16,7 @@
 #include "preview/texture.h"
 #include "reconstruct/decimate.h"
 #include "reconstruct/example_surface.h"
-#include "reconstruct/origin_map.h"
+#include "core/origin.h"
 #include "report/encode.h"
 #include "report/simplify_soup.h"
 #include "report/subdivide.h"

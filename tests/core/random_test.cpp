@@ -53,5 +53,16 @@ TEST(Random, NormalHasMeanZeroAndVarianceOne) {
   EXPECT_NEAR(squares / 10000, 1, 0.07);
 }
 
+TEST(Random, AttemptsShareNoDraw) {
+  const Random random(7, 3);
+  std::set<std::uint64_t> seen;
+  for (std::uint64_t attempt = 0; attempt < 8; ++attempt) {
+    const Random fork = random.fork(attempt);
+    for (std::uint64_t cell = 0; cell < 64; ++cell)
+      for (std::uint32_t draw = 0; draw < 4; ++draw) seen.insert(fork.bits(cell, draw));
+  }
+  EXPECT_EQ(seen.size(), 8u * 64 * 4);
+}
+
 }  // namespace
 }  // namespace exemplar

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "reconstruct/field_to_mesh.h"
-#include "reconstruct/origin_map.h"
+#include "core/origin.h"
 #include "tests/reconstruct/fields.h"
 
 namespace exemplar {

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "mesh/primitives.h"
-#include "reconstruct/origin_map.h"
+#include "core/origin.h"
 #include "sdf/mesh_to_sdf.h"
 #include "tests/reconstruct/fields.h"
 

@@ -14,7 +14,7 @@
 #include "mesh/image.h"
 #include "mesh/primitives.h"
 #include "reconstruct/field_to_mesh.h"
-#include "reconstruct/origin_map.h"
+#include "core/origin.h"
 #include "sdf/mesh_to_sdf.h"
 #include "tests/reconstruct/fields.h"
 

@@ -1,0 +1,45 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+
+/// Every place in the program that draws random numbers has a stream of its own (`core/random.h`),
+/// so that no two share a draw. A stream's number is part of the results' bytes: never change one.
+namespace exemplar::stream {
+
+enum Name : std::uint32_t {
+  // synth/geometry
+  kBlockSeeding = 0xb10c,  ///< what samples that are not made yet count as
+  kBlockStart = 0xb10d,    ///< where the first block of a level comes from
+  kSmallBlocks = 0x0b71,   ///< a start from small blocks
+  kPatchSearch = 0x0b72,   ///< PatchMatch
+  kQuilt = 0x0b73,         ///< a start from large blocks
+  kSeamRepair = 0x0b74,    ///< PatchMatch where a seam shows
+  // synth/model
+  kLabelChoice = 0x4C424C31,  ///< which label a cell takes
+  kBlockAccept = 0x4C424C32,  ///< whether a modified block is kept
+  kLimits = 0x4C424C33,       ///< where a limit on counts or connectedness is worked on
+  // measure
+  kExampleWindows = 0x66706465,
+  kResultWindows = 0x66706472,
+  kLikenessWindows = 0x77696e64,
+  // preview
+  kPixels = 0x70726576,
+  kBakedLight = 3,
+  // the processes of scenes (mesh/procedural)
+  kFiberPlaces = 0xf1b1,
+  kFiberShapes = 0xf1b2,
+  kTerrain = 0x7e44,
+  kChainmail = 0xc4a1,
+  kGrassPlaces = 0x6a51,
+  kGrassShapes = 0x6a52,
+  kBalls = 0xba11,
+  kGrid = 0x6f1d,
+  kMetalPlaces = 0x3e71,
+  kMetalShapes = 0x3e72,
+  kMetalRoughness = 0x3e73,
+};
+
+}  // namespace exemplar::stream
