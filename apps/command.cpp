@@ -6,71 +6,128 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 
-#include "apps/terminal.h"
-#include "apps/words.h"
 #include "core/error.h"
-#include "core/file.h"
+#include "engine/words.h"
 
 namespace exemplar {
+namespace {
 
-void addCommonOptions(CLI::App& command, CommonOptions& options) {
+/// "side of a block (16 samples)".
+std::string helpOf(const Setting& setting) {
+  std::string text = setting.meaning;
+  std::string usual = setting.byDefault;
+  if (setting.type == SettingType::Flag) usual.clear();
+  if (!setting.unit.empty() && !usual.empty() && usual.find(' ') == std::string::npos) {
+    usual += " " + setting.unit;
+  } else if (!setting.unit.empty()) {
+    text += ", in " + setting.unit;
+  }
+  if (!usual.empty()) text += " (" + usual + ")";
+  return spelledAsOptions(text);
+}
+
+std::string valueOf(const Setting& setting) {
+  if (setting.type != SettingType::Choice) return std::string(typeName(setting.type));
+  std::string names;
+  for (const std::string& choice : setting.choices) names += (names.empty() ? "" : "|") + choice;
+  return names;
+}
+
+}  // namespace
+
+std::shared_ptr<CommonOptions> addCommonOptions(CLI::App& command) {
+  auto options = std::make_shared<CommonOptions>();
   command
-      .add_option("--threads", options.threads, "cores to use; the result does not depend on it")
+      .add_option("--threads", options->threads, "cores to use; the result does not depend on it")
       ->check(CLI::Range(1, 1024))
       ->default_str("all");
-  command.add_flag("-q,--quiet", options.quiet, "no progress, no summary");
-}
-
-void addUpOption(CLI::App& command, MeshFileOptions& options) {
+  command.add_flag("-q,--quiet", options->quiet, "no progress, no summary");
   command
-      .add_option("--up", options.up,
-                  "which axis is up in mesh files: y, z, or auto (y for .obj and .glb, else z)")
+      .add_option("--progress", options->progress,
+                  "how progress is shown on standard error: as one line that changes, as JSON "
+                  "objects, one a line, for programs, or not at all (auto: a line on a terminal)")
       ->transform(CLI::CheckedTransformer(
-          std::map<std::string, UpAxis>{
-              {"auto", UpAxis::Default}, {"y", UpAxis::Y}, {"z", UpAxis::Z}},
-          CLI::ignore_case))
-      ->option_text("auto|y|z");
+          std::map<std::string, ProgressStyle>{{"auto", ProgressStyle::Auto},
+                                               {"line", ProgressStyle::Line},
+                                               {"json", ProgressStyle::Json},
+                                               {"none", ProgressStyle::None}}))
+      ->option_text("auto|line|json|none");
+  return options;
 }
 
-void addHeightMapOptions(CLI::App& command, std::optional<double>& cellSize,
-                         std::optional<double>& heightScale) {
-  command
-      .add_option("--cell-size", cellSize,
-                  "distance of a height map's points, where the file does not say")
-      ->check(CLI::PositiveNumber);
-  command
-      .add_option("--height-scale", heightScale, "height of one step of a height map's integers")
-      ->check(CLI::PositiveNumber);
+void SettingOptions::add(const std::string& group, const std::string& whose,
+                         std::span<const Setting> settings) {
+  for (const Setting& setting : settings) {
+    const auto same = std::ranges::find(options_, setting.key,
+                                        [](const Option& option) { return option.setting.key; });
+    if (same == options_.end()) {
+      options_.push_back({group, whose, setting, helpOf(setting)});
+      continue;
+    }
+    if (helpOf(setting) == helpOf(same->setting)) continue;
+    if (same->help == helpOf(same->setting) && !same->whose.empty())
+      same->help = same->whose + ": " + same->help;
+    if (same->help.find(helpOf(setting)) == std::string::npos)
+      same->help += "; " + whose + ": " + helpOf(setting);
+    if (same->setting.type != setting.type) same->setting.type = SettingType::Text;
+  }
 }
 
-void addExampleOptions(CLI::App& command, ExampleOptions& options) {
-  command
-      .add_option("--resolution", options.resolution,
-                  "samples along the example's longest side (64; a volume keeps its own)")
-      ->check(CLI::Range(4, 4096));
-  command
-      .add_option("--padding", options.padding,
-                  "voxels of air around a mesh (4; 0 where the example goes on past its box)")
-      ->check(CLI::Range(0, 1024));
-  command.add_option("--scene-seed", options.sceneSeed,
-                     "another sample of a scene's own random process");
-  addHeightMapOptions(command, options.cellSize, options.heightScale);
-  addUpOption(command, options.mesh);
+void SettingOptions::install(CLI::App& command, Settings& into) const {
+  for (const Option& option : options_) {
+    const std::string key = option.setting.key;
+    if (option.setting.type == SettingType::Flag) {
+      command
+          .add_flag_callback(
+              optionOf(key), [&into, key] { into.set(key, true); }, option.help)
+          ->group(option.group);
+      continue;
+    }
+    command
+        .add_option(
+            optionOf(key),
+            [&into, key](const CLI::results_t& texts) {
+              for (const std::string& text : texts) into.add(key, text);
+              return true;
+            },
+            option.help)
+        ->type_size(1)
+        ->expected(1, 1 << 20)
+        ->allow_extra_args(false)
+        ->option_text(valueOf(option.setting))
+        ->group(option.group);
+  }
 }
 
-void addPictureOptions(CLI::App& command, PictureOptions& options) {
+void addReadingOptions(CLI::App& command, Form form, Settings& into) {
+  SettingOptions options;
+  options.add("Reading the example", "", readingSettings(form).settings());
+  options.install(command, into);
+}
+
+ReadOptions readingOf(const Settings& settings, Form form) {
+  ReadOptions options;
+  options.form = form;
+  readingSettings(form).apply(settings, options);
+  return options;
+}
+
+void addPictureOptions(CLI::App& command, PictureOptions& options, const std::string& size) {
   command
       .add_option("--view", options.view,
                   "iso, front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees")
-      ->capture_default_str();
-  command.add_option("--size", options.size, "the picture's WIDTHxHEIGHT in pixels")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group("Picture");
+  command.add_option(size, options.size, "the picture's WIDTHxHEIGHT in pixels")
+      ->capture_default_str()
+      ->group("Picture");
   command.add_option("--samples", options.samples, "rays a pixel")
       ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group("Picture");
 }
 
 RenderOptions renderOptions(const PictureOptions& options) {
@@ -85,57 +142,9 @@ RenderOptions renderOptions(const PictureOptions& options) {
   return render;
 }
 
-Vec3d parseTriple(const std::string& text, const std::string& option) {
-  const std::string what = option + " " + text;
-  const std::size_t count = split(text, ',').size();
-  if (count != 1 && count != 3)
-    throw InputError(what + ": expected one number or three, as in 2,2,1");
-  const std::vector<double> numbers = parseNumbers(text, count, what);
-  for (const double number : numbers)
-    if (!(number > 0)) throw InputError(what + ": expected numbers above 0");
-  return count == 1 ? Vec3d{numbers[0], numbers[0], numbers[0]}
-                    : Vec3d{numbers[0], numbers[1], numbers[2]};
-}
+std::string optionOf(std::string_view key) { return "--" + std::string(key); }
 
-Vec3i scaledSize(const Vec3i& size, const Vec3d& scale, const std::string& unit) {
-  Vec3i scaled;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double n = std::round(size[axis] * scale[axis]);
-    if (!(n >= 1 && n <= 32767)) {
-      throw InputError("--scale: the result would be " + std::to_string(n) + " " + unit +
-                       " long; expected 1 to 32767");
-    }
-    scaled[axis] = static_cast<int>(n);
-  }
-  return scaled;
-}
-
-void requireOutput(const std::filesystem::path& path, const std::string& endings) {
-  const std::string ending = lowerExtension(path);
-  if (ending.empty() || (" " + endings + " ").find(" " + ending + " ") == std::string::npos) {
-    throw InputError(path.string() + ": cannot write this kind of file; use one of " + endings);
-  }
-  const OutputFile probe(path);
-}
-
-std::string readableSize(const Vec3i& size) {
-  return std::to_string(size.x) + " x " + std::to_string(size.y) + " x " + std::to_string(size.z) +
-         " samples";
-}
-
-std::string readableHealth(const MeshHealth& health) {
-  std::string text = withThousands(health.triangles) + " triangles, ";
-  text += health.closed() ? "closed" : "open (" + withThousands(health.boundaryEdges) + " edges)";
-  text += health.manifold()
-              ? ", manifold"
-              : ", not manifold (" +
-                    withThousands(health.nonManifoldEdges + health.nonManifoldVertices) +
-                    " places)";
-  text += health.oriented() ? ", consistently oriented"
-                            : ", not consistently oriented (" +
-                                  withThousands(health.misorientedEdges) + " edges)";
-  return text;
-}
+std::string spelledAsOptions(const std::string& message) { return spelled(message, optionOf); }
 
 struct ThreadLimit::Control {
   explicit Control(int threads)
@@ -143,7 +152,8 @@ struct ThreadLimit::Control {
   tbb::global_control limit;
 };
 
-ThreadLimit::ThreadLimit(int threads) : control_(threads > 0 ? new Control(threads) : nullptr) {}
-ThreadLimit::~ThreadLimit() { delete control_; }
+ThreadLimit::ThreadLimit(int threads)
+    : control_(threads > 0 ? std::make_unique<Control>(threads) : nullptr) {}
+ThreadLimit::~ThreadLimit() = default;
 
 }  // namespace exemplar

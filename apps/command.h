@@ -4,15 +4,15 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "apps/example.h"
-#include "core/vec.h"
-#include "mesh/image.h"
-#include "mesh/mesh_health.h"
+#include "apps/terminal.h"
+#include "engine/example.h"
+#include "engine/setting.h"
 #include "preview/render.h"
 
 namespace CLI {
@@ -21,80 +21,77 @@ class App;
 
 namespace exemplar {
 
-/// Runs a command whose options have been parsed. Errors leave it as exceptions.
-using CommandRun = std::function<void()>;
+/// What every command has: `--threads`, `--quiet` and `--progress`.
+struct CommonOptions {
+  int threads = 0;  ///< 0: all cores
+  bool quiet = false;
+  ProgressStyle progress = ProgressStyle::Auto;
+};
 
-/// Each adds one subcommand to the parser and returns what runs it.
-CommandRun addSynthCommand(CLI::App& app);
-/// `synth` with the options of model synthesis, in place of `addSynthCommand` where the arguments
-/// ask for it: by --engine model, or by an example that holds labels.
-CommandRun addModelSynthCommand(CLI::App& app);
-bool wantsModelEngine(int argc, const char* const* argv);
-CommandRun addSdfCommand(CLI::App& app);
-CommandRun addMeshCommand(CLI::App& app);
-CommandRun addMeasureCommand(CLI::App& app);
-CommandRun addRenderCommand(CLI::App& app);
-CommandRun addSceneCommand(CLI::App& app);
-CommandRun addVoxelizeCommand(CLI::App& app);
-CommandRun addInfoCommand(CLI::App& app);
-CommandRun addCompareCommand(CLI::App& app);
+/// A subcommand: its parser, what is common to all, and what runs it once it was parsed. Errors
+/// leave it as exceptions.
+struct Command {
+  CLI::App* app;
+  std::shared_ptr<CommonOptions> common;
+  std::function<void(Terminal&)> run;
+};
 
-/// Synthesis that could not be completed: the command answers it with exit status 3.
+/// Each adds one subcommand to the parser.
+Command addSynthCommand(CLI::App& app);
+Command addSdfCommand(CLI::App& app);
+Command addMeshCommand(CLI::App& app);
+Command addMeasureCommand(CLI::App& app);
+Command addRenderCommand(CLI::App& app);
+Command addSceneCommand(CLI::App& app);
+Command addVoxelizeCommand(CLI::App& app);
+Command addInfoCommand(CLI::App& app);
+Command addCompareCommand(CLI::App& app);
+
+/// Synthesis that could not be completed: exit status 3.
 class Unfinished : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What every command has: `--threads` and `--quiet`.
-struct CommonOptions {
-  int threads = 0;  ///< 0: all cores
-  bool quiet = false;
+/// Adds what is common to all commands.
+std::shared_ptr<CommonOptions> addCommonOptions(CLI::App& command);
+
+/// Options for settings, in groups of the help. A key that several groups have is one option, whose
+/// text is read by whoever it is for.
+class SettingOptions {
+ public:
+  /// `whose` ("model") is said before the meaning of a key that another group has, too.
+  void add(const std::string& group, const std::string& whose, std::span<const Setting> settings);
+  /// Adds the options; what is given of them goes to `into`, which must outlive the parser.
+  void install(CLI::App& command, Settings& into) const;
+
+ private:
+  struct Option {
+    std::string group, whose;
+    Setting setting;
+    std::string help;
+  };
+  std::vector<Option> options_;
 };
-void addCommonOptions(CLI::App& command, CommonOptions& options);
 
-/// Options of reading and sampling an example: `--resolution`, `--padding`, `--up`, ...
-void addExampleOptions(CLI::App& command, ExampleOptions& options);
-/// `--cell-size` and `--height-scale`: the units of height maps that do not say them.
-void addHeightMapOptions(CLI::App& command, std::optional<double>& cellSize,
-                         std::optional<double>& heightScale);
-/// `--up` alone, for commands that only read or write meshes.
-void addUpOption(CLI::App& command, MeshFileOptions& options);
+/// The options of reading an example in a form, and what they say.
+void addReadingOptions(CLI::App& command, Form form, Settings& into);
+ReadOptions readingOf(const Settings& settings, Form form);
 
-/// Picture options: `--view`, `--size`, `--samples`.
+/// Picture options: `--view`, `--size` or another name, `--samples`.
 struct PictureOptions {
   std::string view = "iso";
   std::string size = "960x720";
   int samples = 64;
 };
-void addPictureOptions(CLI::App& command, PictureOptions& options);
+void addPictureOptions(CLI::App& command, PictureOptions& options,
+                       const std::string& size = "--size");
 RenderOptions renderOptions(const PictureOptions& options);
 
-/// "2,2,1", or "2" for all three; throws `InputError` naming `option` unless each is a positive
-/// number.
-Vec3d parseTriple(const std::string& text, const std::string& option);
-
-/// The size of an example in `unit`s ("samples"), scaled. Throws `InputError` unless each side has
-/// 1 to 32,767 of them.
-Vec3i scaledSize(const Vec3i& size, const Vec3d& scale, const std::string& unit);
-
-/// Refuses an output whose ending is none of `endings` (".obj .ply"), or whose folder is not there
-/// or not writable, before any work is done.
-void requireOutput(const std::filesystem::path& path, const std::string& endings);
-
-/// A mesh to show: a mesh file as it is; any other example contoured, a scene cut to its box.
-TriangleMesh loadForPicture(const std::filesystem::path& path, const ExampleOptions& options,
-                            const Progress& progress);
-/// One picture of several meshes in a row, at one scale, of the size that `options` says for each.
-Image8 renderSideBySide(const std::vector<TriangleMesh>& meshes, const RenderOptions& options,
-                        const Progress& progress);
-
-/// The endings that `writeMesh` knows, for help and errors.
-inline constexpr const char* kMeshEndings = ".obj .ply .stl .off .glb";
-
-/// "128 x 128 x 64 samples".
-std::string readableSize(const Vec3i& size);
-/// "12,345 triangles, closed, manifold, oriented", with the counts of what is not so.
-std::string readableHealth(const MeshHealth& health);
+/// The option of a setting: "--key".
+std::string optionOf(std::string_view key);
+/// A message of the library as the command says it: settings in backticks become options.
+std::string spelledAsOptions(const std::string& message);
 
 /// Limits the cores that work uses while it lives; 0 for all.
 class ThreadLimit {
@@ -106,7 +103,7 @@ class ThreadLimit {
 
  private:
   struct Control;
-  Control* control_;
+  std::unique_ptr<Control> control_;
 };
 
 }  // namespace exemplar

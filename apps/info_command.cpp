@@ -1,7 +1,7 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-// exemplar info: what an example holds, and what model synthesis has to know of it.
+// exemplar info: what an example holds, and what model synthesis learns from it.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,15 +9,15 @@
 #include <memory>
 
 #include "apps/command.h"
-#include "apps/json.h"
-#include "apps/label_example.h"
-#include "apps/terminal.h"
-#include "core/error.h"
 #include "core/file.h"
+#include "engine/json.h"
+#include "engine/model_request.h"
+#include "engine/output.h"
+#include "engine/realize.h"
+#include "engine/words.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
 #include "synth/model/infallible.h"
-#include "voxelize/adjacency.h"
 
 namespace exemplar {
 namespace {
@@ -25,8 +25,7 @@ namespace {
 struct Options {
   std::string example, json;
   bool list = false;
-  LabelReading reading;
-  CommonOptions common;
+  Settings settings;
 };
 
 std::string percent(double share) {
@@ -37,7 +36,8 @@ std::string percent(double share) {
 
 /// A mesh without cells to cut it along: what is sound about it.
 Json meshInfo(const Options& options, Terminal& terminal) {
-  const TriangleMesh mesh = readMesh(options.example, options.reading.mesh);
+  const TriangleMesh mesh =
+      readMesh(options.example, readingOf(options.settings, Form::Labels).mesh);
   const MeshHealth health = meshHealth(mesh);
   const Vec3d size = boundingBox(mesh).size();
   char box[96];
@@ -55,7 +55,7 @@ Json meshInfo(const Options& options, Terminal& terminal) {
 
 /// Whether plain propagation can fail on the example's rules, as far as that can be proved.
 void tellProof(const Adjacency& adjacency, Terminal& terminal, Json& json) {
-  terminal.step("looking for a proof that propagation cannot fail");
+  terminal.progress().report("looking for a proof that propagation cannot fail", 0.5);
   const RuleSummary rules = summarizeRules(adjacency);
   const Vec3i r = rules.proof.region;
   const std::string region = std::to_string(r.x) + " x " + std::to_string(r.y) + " x " +
@@ -78,11 +78,11 @@ void tellProof(const Adjacency& adjacency, Terminal& terminal, Json& json) {
 }
 
 Json labelInfo(const Options& options, Terminal& terminal) {
-  const LabelExample example =
-      loadLabelExample(options.example, options.reading, terminal.progress());
-  terminal.stopIfInterrupted();
-  const LabelGrid& grid = example.grid;
-  const Adjacency adjacency = findAdjacency(example, {grid});
+  const Example example = readExample(options.example, readingOf(options.settings, Form::Labels),
+                                      terminal.progress().part(0, 0.5));
+  for (const std::string& warning : example.warnings) terminal.warn(warning);
+  const LabelGrid& grid = example.labels();
+  const Adjacency adjacency = adjacencyOf({&example, 1});
   terminal.say("example", options.example + ": " + example.description);
 
   const auto cells = static_cast<double>(grid.cells.count());
@@ -116,8 +116,8 @@ Json labelInfo(const Options& options, Terminal& terminal) {
   terminal.say("adjacency", text);
   json["adjacency_density"] = density;
   tellProof(adjacency, terminal, json);
-  if (example.pieces) {
-    const ModelPieces& p = *example.pieces;
+  if (const auto* pieces = std::get_if<ModelPieces>(&example.content)) {
+    const ModelPieces& p = *pieces;
     const auto images = [&](const std::vector<Label>& of) {
       return std::count_if(of.begin(), of.end(), [](Label l) { return l != ModelPieces::kNone; });
     };
@@ -145,14 +145,13 @@ Json labelInfo(const Options& options, Terminal& terminal) {
   return json;
 }
 
-void info(const Options& options) {
-  const ThreadLimit limit(options.common.threads);
+void info(const Options& options, Terminal& terminal) {
   const bool print = options.json == "-";
-  Terminal terminal(options.common.quiet || print);
+  if (print) terminal.beQuiet();
   if (!options.json.empty() && !print) requireOutput(options.json, ".json");
-  const bool plainMesh = isMeshFile(options.example) && options.reading.cell.empty();
+  const bool plainMesh =
+      sourceKind(options.example) == SourceKind::Mesh && !options.settings.has("cell");
   const Json json = plainMesh ? meshInfo(options, terminal) : labelInfo(options, terminal);
-  terminal.stopIfInterrupted();
   // Names may hold bytes that are not UTF-8.
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   if (print) {
@@ -164,19 +163,19 @@ void info(const Options& options) {
 
 }  // namespace
 
-CommandRun addInfoCommand(CLI::App& app) {
+Command addInfoCommand(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("info", "Tell an example's labels and which stand side by side");
+      app.add_subcommand("info", "Report an example's labels and which of them are neighbors");
   command
       ->add_option("EXAMPLE", options->example,
                    "a label grid (.txt .vox .vdb), a picture, a scene, or a mesh with --cell")
       ->required();
   command->add_flag("--list", options->list, "list every label with its number of cells");
   command->add_option("--json", options->json, "write it to this .json; - prints it");
-  addLabelReadingOptions(*command, options->reading);
-  addCommonOptions(*command, options->common);
-  return [options] { info(*options); };
+  addReadingOptions(*command, Form::Labels, options->settings);
+  return {command, addCommonOptions(*command),
+          [options](Terminal& terminal) { info(*options, terminal); }};
 }
 
 }  // namespace exemplar

@@ -7,19 +7,38 @@
 #include <memory>
 
 #include "apps/command.h"
-#include "apps/terminal.h"
-#include "mesh/mesh_file.h"
-#include "reconstruct/field_to_mesh.h"
+#include "engine/output.h"
+#include "engine/realize.h"
+#include "mesh/image.h"
 
 namespace exemplar {
+namespace {
 
-CommandRun addRenderCommand(CLI::App& app) {
+/// One picture of several meshes in a row: each is framed by a box of the largest one's size about
+/// its own center.
+Image8 renderSideBySide(const std::vector<TriangleMesh>& meshes, const RenderOptions& options,
+                        const Progress& progress) {
+  Vec3d size{};
+  for (const TriangleMesh& mesh : meshes) size = max(size, boundingBox(mesh).size());
+  std::vector<Image8> images;
+  const auto count = static_cast<double>(meshes.size());
+  for (const TriangleMesh& mesh : meshes) {
+    RenderOptions framed = options;
+    framed.frame = frameOfSize(boundingBox(mesh), size);
+    const auto n = static_cast<double>(images.size());
+    images.push_back(render(mesh, framed, progress.part(n / count, (n + 1) / count)));
+  }
+  return images.size() == 1 ? images.front() : sideBySide(images);
+}
+
+}  // namespace
+
+Command addRenderCommand(CLI::App& app) {
   struct Options {
     std::vector<std::string> examples;
     std::string output;
-    ExampleOptions reading;
+    Settings settings;
     PictureOptions picture;
-    CommonOptions common;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("render", "Write a picture of a mesh or of any example");
@@ -29,23 +48,23 @@ CommandRun addRenderCommand(CLI::App& app) {
       ->required();
   command->add_option("-o,--output", options->output, "the .png file to write")->required();
   addPictureOptions(*command, options->picture);
-  addExampleOptions(*command, options->reading);
-  addCommonOptions(*command, options->common);
+  addReadingOptions(*command, Form::Field, options->settings);
 
-  return [options] {
-    const ThreadLimit limit(options->common.threads);
-    Terminal terminal(options->common.quiet);
-    requireOutput(options->output, ".png");
-    const RenderOptions render = renderOptions(options->picture);
-    std::vector<TriangleMesh> meshes;
-    for (const std::string& path : options->examples) {
-      meshes.push_back(loadForPicture(path, options->reading, terminal.progress()));
-    }
-    const Image8 image = renderSideBySide(meshes, render, terminal.progress());
-    terminal.stopIfInterrupted();
-    writePng(options->output, image);
-    terminal.say("picture", options->output);
-  };
+  return {command, addCommonOptions(*command), [options](Terminal& terminal) {
+            requireOutput(options->output, ".png");
+            const RenderOptions picture = renderOptions(options->picture);
+            ReadOptions reading = readingOf(options->settings, Form::Field);
+            std::vector<TriangleMesh> meshes;
+            const auto count = static_cast<double>(options->examples.size());
+            for (const std::string& path : options->examples) {
+              const double from = 0.5 * static_cast<double>(meshes.size()) / count;
+              meshes.push_back(
+                  pictured(path, reading, terminal.progress().part(from, from + 0.5 / count)));
+            }
+            writePng(options->output,
+                     renderSideBySide(meshes, picture, terminal.progress().part(0.5, 1)));
+            terminal.wrote("picture", options->output, options->output);
+          }};
 }
 
 }  // namespace exemplar

@@ -7,44 +7,66 @@
 #include <memory>
 
 #include "apps/command.h"
-#include "apps/terminal.h"
+#include "engine/output.h"
+#include "engine/words.h"
 #include "mesh/mesh_file.h"
 #include "mesh/scene.h"
 
 namespace exemplar {
+namespace {
 
-CommandRun addSceneCommand(CLI::App& app) {
+struct SceneRequest {
+  SceneOptions scene;
+  MeshFileOptions file;
+};
+
+const SettingTable<SceneRequest>& sceneSettings() {
+  using O = SceneRequest;
+  static const SettingTable<O> table{
+      settingRow<O>(
+          "scene-seed", [](O & o) -> auto& { return o.scene.seed; },
+          "another sample of the scene's process", {}, "", "the scene's"),
+      settingRow<O>("extent", [](O & o) -> auto& { return o.scene.extent; },
+                    "make a window this many times as large", {1, 1e6}),
+      choiceRow<O, UpAxis>(
+          "up", [](O & o) -> auto& { return o.file.up; },
+          "which axis is up in mesh files: y for .obj and .glb, else z, where it is auto",
+          {{"auto", UpAxis::Default}, {"y", UpAxis::Y}, {"z", UpAxis::Z}})};
+  return table;
+}
+
+}  // namespace
+
+Command addSceneCommand(CLI::App& app) {
   struct Options {
-    std::string name, output, extent = "1,1,1";
-    SceneOptions scene;
-    MeshFileOptions file;
-    CommonOptions common;
+    std::string name, output;
+    Settings settings;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("scene", "Write a bundled scene's example as a mesh");
-  std::string names;
-  for (const std::string& name : bundledScenes()) names += (names.empty() ? "" : ", ") + name;
-  command->add_option("NAME", options->name, names + "; or a scene .toml of your own")->required();
+  command
+      ->add_option("NAME", options->name,
+                   joined(bundledScenes(), "and") + "; or a scene .toml of your own")
+      ->required();
   command
       ->add_option("-o,--output", options->output,
                    "the mesh to write: " + std::string(kMeshEndings))
       ->required();
-  command->add_option("--scene-seed", options->scene.seed, "another sample of the scene's process");
-  command->add_option("--extent", options->extent, "make a window this many times as large: X,Y,Z");
-  addUpOption(*command, options->file);
-  addCommonOptions(*command, options->common);
+  SettingOptions rows;
+  rows.add("Scene", "", sceneSettings().settings());
+  rows.install(*command, options->settings);
 
-  return [options] {
-    const ThreadLimit limit(options->common.threads);
-    Terminal terminal(options->common.quiet);
-    requireOutput(options->output, kMeshEndings);
-    options->scene.extent = parseTriple(options->extent, "--extent");
-    const Scene scene = readScene(findScene(options->name), options->scene);
-    writeMesh(options->output, scene.mesh, options->file);
-    terminal.say("scene", scene.name + " written to " + options->output + ": " +
-                              withThousands(static_cast<long long>(scene.mesh.triangles.size())) +
-                              " triangles");
-  };
+  return {command, addCommonOptions(*command), [options](Terminal& terminal) {
+            requireOutput(options->output, kMeshEndings);
+            SceneRequest request;
+            sceneSettings().apply(options->settings, request);
+            const Scene scene = readScene(findScene(options->name), request.scene);
+            writeMesh(options->output, scene.mesh, request.file);
+            terminal.wrote("scene", options->output,
+                           scene.name + " written to " + options->output + ": " +
+                               withThousands(static_cast<long long>(scene.mesh.triangles.size())) +
+                               " triangles");
+          }};
 }
 
 }  // namespace exemplar

@@ -7,34 +7,36 @@
 #include <memory>
 
 #include "apps/command.h"
-#include "apps/terminal.h"
+#include "engine/output.h"
+#include "engine/words.h"
 #include "sdf/vdb_file.h"
 
 namespace exemplar {
 
-CommandRun addSdfCommand(CLI::App& app) {
+Command addSdfCommand(CLI::App& app) {
   struct Options {
     std::string example, output;
-    ExampleOptions reading;
-    CommonOptions common;
+    Settings settings;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("sdf", "Write an example's signed distance field (.vdb)");
   command->add_option("EXAMPLE", options->example, "mesh, volume, height map or scene")->required();
   command->add_option("-o,--output", options->output, "the .vdb file to write")->required();
-  addExampleOptions(*command, options->reading);
-  addCommonOptions(*command, options->common);
+  addReadingOptions(*command, Form::Field, options->settings);
 
-  return [options] {
-    const ThreadLimit limit(options->common.threads);
-    Terminal terminal(options->common.quiet);
-    requireOutput(options->output, ".vdb");
-    const Example example = loadExample(options->example, options->reading, terminal.progress());
-    terminal.step("writing " + options->output);
-    writeVdb(options->output, example.field, example.wraps);
-    terminal.say("example", example.description);
-    terminal.say("field", options->output + ": " + readableSize(example.field.size()));
-  };
+  return {command, addCommonOptions(*command), [options](Terminal& terminal) {
+            requireOutput(options->output, ".vdb");
+            const Example example =
+                readExample(options->example, readingOf(options->settings, Form::Field),
+                            terminal.progress().part(0, 0.9));
+            for (const std::string& warning : example.warnings) terminal.warn(warning);
+            terminal.progress().report("writing " + options->output, 0.9);
+            writeVdb(options->output, example.field(), example.continues);
+            terminal.say("example", example.description);
+            terminal.wrote(
+                "field", options->output,
+                options->output + ": " + readableSize(example.field().size(), "samples"));
+          }};
 }
 
 }  // namespace exemplar

@@ -1,336 +1,263 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-// exemplar synth: the main path. An example becomes a field, the field more of itself, and that a
-// mesh with the example's materials.
+// exemplar synth: the main path. Read, synthesize, realize, write.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "apps/command.h"
-#include "apps/json.h"
-#include "apps/report.h"
-#include "apps/synth_control.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/memory.h"
-#include "measure/collapse.h"
-#include "measure/figures.h"
-#include "measure/novelty.h"
-#include "measure/occupancy.h"
-#include "mesh/mesh_file.h"
-#include "reconstruct/copy_triangles.h"
-#include "reconstruct/reconstruct.h"
+#include "engine/engine.h"
+#include "engine/json.h"
+#include "engine/measured.h"
+#include "engine/output.h"
+#include "engine/page.h"
+#include "engine/realize.h"
+#include "engine/words.h"
+#include "mesh/image.h"
 #include "sdf/vdb_file.h"
-#include "synth/geometry/blocks.h"
-#include "synth/geometry/detail.h"
-#include "synth/geometry/optimize.h"
 
 namespace exemplar {
 namespace {
 
-enum class Method { Blocks, Optimize };
-enum class Surface { Contour, Copy };
-
 struct Options {
-  std::string example, output, scale, preview, stats, origins, report;
-  std::string engine = "geometry";
-  Method method = Method::Optimize;
-  Surface surface = Surface::Contour;
-  BlockSeeding seeding = BlocksOptions{}.seeding;
-  std::optional<int> block, levels;
-  std::uint64_t seed = 0;
-  SynthControl control;
-  ExampleOptions reading;
+  std::vector<std::string> examples, with;
+  std::string output, engine, preview, stats, origins, report;
+  Settings settings;
   PictureOptions picture;
-  CommonOptions common;
 };
 
-constexpr const char* kOutputEndings = ".obj .ply .stl .off .glb .vdb .png .pgm .asc";
-
-/// The result's size in samples.
-Vec3i resultSize(const Example& example, const Vec3d& scale) {
-  const Vec3i size = scaledSize(example.field.size(), scale, "samples");
-  // The field, its origins, the search and the surface, about, for each sample.
-  requireMemory(80.0 * static_cast<double>(volume(size)), "a result of " + readableSize(size),
-                "use a lower --resolution or a smaller --scale");
-  return size;
-}
-
-SynthesisResult synthesize(const Options& options, const Examples& examples, const Vec3i& size,
-                           Json& stats, Terminal& terminal) {
-  if (options.method == Method::Optimize) {
-    OptimizeOptions optimize =
-        optimizeOptions(options.control, examples, size, options.reading, terminal.progress());
-    optimize.seed = options.seed;
-    optimize.levels = options.levels;
-    const std::vector<const DistanceField*> fields = examples.fields();
-    const bool found = !optimize.stationary;
-    optimize.stationary = stationaryAxes(fields, optimize);
-    const StationaryAxes& axes = *optimize.stationary;
-    stats["stationary"] = readableAxes(axes.x, axes.y, axes.z);
-    terminal.say("stationary", readableAxes(axes.x, axes.y, axes.z) +
-                                   (found ? ", found from the example (--stationary)" : ""));
-    return synthesizeOptimized(fields, optimize, terminal.progress());
-  }
-  if (options.control.asksForOptimize()) {
-    throw InputError(
-        "--stationary, --periodic, --keep, --guide, --with and --rotations need --method optimize");
-  }
-  BlocksOptions blocks;
-  blocks.size = size;
-  blocks.seed = options.seed;
-  blocks.block = options.block.value_or(examples.first().block);
-  blocks.iterations = options.levels.value_or(blocks.iterations);
-  blocks.seeding = options.seeding;
-  return synthesizeBlocks(examples.first().field, blocks, terminal.progress());
-}
-
-/// Says so where the result is all solid, all empty or one part repeated, and what to change.
-void warnOfCollapse(const Examples& examples, const SynthesisResult& made, Json& stats,
-                    Terminal& terminal) {
-  const DistanceField &example = examples.first().field, &result = made.field;
-  const Occupancy before(example), after(result);
-  CollapseSigns signs;
-  signs.exampleOccupancy = solidFraction(before);
-  signs.resultOccupancy = solidFraction(after);
-  signs.exampleSurface = surfaceDensity(before);
-  signs.resultSurface = surfaceDensity(after);
-  if (examples.all.size() == 1) signs.usedShare = surfaceUse(before, made.origins).usedShare;
-  const Collapse collapse = detectCollapse(signs);
-  stats["collapse"] = collapseName(collapse);
-  if (collapse == Collapse::None) return;
-  terminal.say("warning",
-               collapseSentence(collapse, signs) +
-                   "; try another --seed, one of --levels less, or another --stationary");
-}
-
-struct SoundMesh {
-  TriangleMesh mesh;
-  MeshHealth health;
+/// What the command line asks for, checked before any file is read.
+struct Plan {
+  const Engine* engine;
+  std::vector<Source> sources;
+  ReadOptions reading;
+  Request request;
+  SurfaceOptions surface;
+  OutputOptions output;
+  RenderOptions picture;
 };
 
-/// The surface, closed and with the examples' materials, or copied triangle by triangle.
-SoundMesh reconstruct(const Options& options, const Examples& examples,
-                      const SynthesisResult& result, Terminal& terminal) {
-  const Example& example = examples.first();
-  if (options.surface == Surface::Copy) {
-    if (!example.mesh || examples.all.size() > 1) {
-      throw InputError("--surface copy: " +
-                       std::string(example.mesh ? "there are several examples"
-                                                : "the example has no triangles to copy") +
-                       "; use --surface contour");
-    }
-    terminal.step("copying the example's triangles");
-    CopiedTriangles copied =
-        copyTriangles(result.field, result.origins, *example.mesh, example.field);
-    return {std::move(copied.mesh), copied.health};
+/// The engine that is named, or that the example asks for. The methods of geometry synthesis were
+/// once named by --method, and still may be.
+const Engine& engineOf(const Options& options, Settings& settings) {
+  const std::string method = settings.text("method");
+  const bool named = options.engine != "auto" && !options.engine.empty();
+  const Engine& engine =
+      named ? engineNamed(options.engine) : engineFor(Source(options.examples.front()));
+  if (engine.name() != "geometry" || method.empty()) return engine;
+  if (method != "optimize" && method != "blocks")
+    throw InputError("`method` " + method + ": expected optimize or blocks");
+  settings.remove("method");
+  return method == "blocks" ? engineNamed("blocks") : engine;
+}
+
+Plan planOf(const Options& options) {
+  Plan plan;
+  Settings settings = options.settings;
+  PictureOptions picture = options.picture;
+  // --size was once the picture's, too: 640x480.
+  if (settings.text("size").find('x') != std::string::npos) {
+    picture.size = settings.text("size");
+    settings.remove("size");
   }
-  terminal.step("making the surface");
-  ReconstructOptions surface;
-  surface.blend = 0;  // the seams of the field are evened out already
-  surface.contour.wraps = parseAxes(options.control.periodic, "--periodic");
-  Reconstruction made = reconstructSurface(result.field, result.origins, examples.views(), surface,
-                                           terminal.progress());
-  return {std::move(made.mesh), made.health};
-}
+  plan.picture = renderOptions(picture);
+  plan.engine = &engineOf(options, settings);
+  const Form form = plan.engine->form();
+  checkSettings(*plan.engine, settings);
 
-Json toJson(const MeshHealth& health) {
-  return {{"triangles", health.triangles},
-          {"vertices", health.vertices},
-          {"components", health.components},
-          {"closed", health.closed()},
-          {"manifold", health.manifold()},
-          {"oriented", health.oriented()},
-          {"boundary_edges", health.boundaryEdges},
-          {"non_manifold_edges", health.nonManifoldEdges},
-          {"non_manifold_vertices", health.nonManifoldVertices},
-          {"misoriented_edges", health.misorientedEdges},
-          {"degenerate_triangles", health.degenerateTriangles},
-          {"volume", health.signedVolume}};
-}
-
-/// A page of the example, the result and their figures.
-void writeReport(const Options& options, const Examples& examples, const SynthesisResult& result,
-                 const TriangleMesh& mesh, double seconds, const RenderOptions& picture,
-                 Terminal& terminal) {
-  const Example& example = examples.first();
-  terminal.step("measuring");
-  MeasureInput input;
-  input.origins = &result.origins;
-  input.mesh = &mesh;
-  Json run = {{"engine", options.method == Method::Blocks ? "blocks" : "optimize"},
-              {"seed", options.seed},
-              {"seconds", seconds}};
-  run["figures"] =
-      toJson(figures(measure(example.field, result.field, input, {}, terminal.progress())));
-  run["peak_memory_bytes"] = peakResidentBytes();
-  terminal.step("making the report");
-  const TriangleMesh whole = loadForPicture(options.example, options.reading, terminal.progress());
-  ResultReport report{options.report, options.example, example.description, whole, mesh};
-  report.exampleField = &example.field;
-  report.field = &result.field;
-  report.origins = &result.origins;
-  writeResultReport(report, std::move(run), picture, terminal.progress());
-  terminal.stopIfInterrupted();
-  terminal.say("report", options.report);
-}
-
-/// The main path, from file to file.
-void synth(const Options& options) {
-  const Stopwatch total;
-  const ThreadLimit limit(options.common.threads);
-  Terminal terminal(options.common.quiet);
-  requireOutput(options.output, kOutputEndings);
+  requireOutput(options.output, outputEndings(form));
   if (!options.preview.empty()) requireOutput(options.preview, ".png");
   if (!options.stats.empty()) requireOutput(options.stats, ".json");
   if (!options.origins.empty()) requireOutput(options.origins, ".vdb");
   if (!options.report.empty()) requireOutput(options.report, ".html");
-  const RenderOptions picture = renderOptions(options.picture);
+  if (!options.origins.empty() && form != Form::Field)
+    throw InputError("--origins: only results of distance fields have them; leave it out");
+  if (!options.report.empty() && settings.has("frames"))
+    throw InputError("--report: a page shows one frame; leave out `frames` or --report");
 
-  Examples examples(loadExample(options.example, options.reading, terminal.progress()),
-                    options.control, options.reading, terminal.progress());
-  const Example& example = examples.first();
-  for (const Example& each : examples.all) {
-    terminal.say("example", each.path.string() + ": " + each.description);
+  for (const auto* paths : {&options.examples, &options.with})
+    plan.sources.insert(plan.sources.end(), paths->begin(), paths->end());
+  plan.reading = readingOf(settings, form);
+  surfaceSettings(form).apply(settings, plan.surface);
+  plan.output = {plan.reading.mesh, plan.surface.instances, plan.picture};
+  // What is left is asked of the engine.
+  for (const auto& table : {readingSettings(form).settings(), surfaceSettings(form).settings()})
+    for (const Setting& setting : table) settings.remove(setting.key);
+  plan.request = requestOf(settings, plan.reading);
+  return plan;
+}
+
+/// Refuses what cannot be written before it is made.
+void checkExtent(const Options& options, const Plan& plan, std::span<const Example> examples) {
+  const Vec3i size = plan.engine->extentOf(examples, plan.request);
+  const int frames = plan.request.settings.has("frames") ? 1 : 0;
+  requireOutputFits(options.output, plan.engine->form(), size, frames);
+  if (plan.surface.surface == SurfaceKind::Copy && (!examples[0].mesh || examples.size() > 1)) {
+    throw InputError("`surface` copy: " +
+                     std::string(examples[0].mesh ? "there are several examples"
+                                                  : "the example has no triangles to copy") +
+                     "; use contour");
   }
+}
+
+/// Throws where there is no result.
+void requireComplete(const Result& result) {
+  if (result.outcome == Outcome::Cancelled) throw Cancelled();
+  if (result.outcome != Outcome::Complete) throw Unfinished(result.why);
+}
+
+/// A page of the example, the result and their figures.
+void writeReport(const Options& options, const Plan& plan, std::span<const Example> examples,
+                 const Result& result, const Surface& surface, double seconds,
+                 const Progress& progress) {
+  const Example& example = examples.front();
+  Json run = {{"engine", result.engine}, {"seed", result.seed}, {"seconds", seconds}};
+  if (const auto measures = measure(result, examples, &surface.mesh, progress.part(0, 0.4)))
+    run["figures"] = toJson(figures(*measures));
+  run["peak_memory_bytes"] = peakResidentBytes();
+  if (example.form() == Form::Labels) run["labels"] = example.labels().labelCount();
+  const TriangleMesh whole = pictured(example.source, example.reading, progress.part(0.4, 0.5));
+  const std::optional<SampledResult> samples = sampled(result, example);
+  const auto* labeled = std::get_if<LabeledField>(&example.content);
+  ResultPage page{options.report, example.source.path(), example.description, whole, surface.mesh};
+  if (samples) {
+    page.exampleField = labeled ? &labeled->field : &example.field();
+    page.field = &samples->field;
+    page.origins = &samples->origins;
+  }
+  writePage(page, std::move(run), plan.picture, progress.part(0.5, 1));
+}
+
+/// The main path, from file to file.
+void synth(const Options& options, Terminal& terminal) {
+  const Stopwatch total;
+  const Plan plan = planOf(options);
+  const Progress& progress = terminal.progress();
+
+  std::vector<Example> examples = readExamples(plan.sources, plan.reading, progress.part(0, 0.15));
+  for (const Example& example : examples) {
+    terminal.say("example", example.name() + ": " + example.description);
+    for (const std::string& warning : example.warnings) terminal.warn(warning);
+  }
+  checkExtent(options, plan, examples);
   const double readSeconds = total.seconds();
 
-  const Vec3d scale = options.scale.empty() ? example.scale : parseTriple(options.scale, "--scale");
-  const Vec3i size = resultSize(example, scale);
-  Json stats = {{"example", options.example},
-                {"output", options.output},
-                {"method", options.method == Method::Blocks ? "blocks" : "optimize"},
-                {"seed", options.seed},
-                {"example_samples", toJson(example.field.size())},
-                {"result_samples", toJson(size)},
-                {"voxel_size", example.field.voxelSize}};
   const Stopwatch synthesis;
-  SynthesisResult result = synthesize(options, examples, size, stats, terminal);
-  if (result.status == SynthesisStatus::Cancelled) throw Interrupted();
-  stats["matches"] = result.matches;
-  warnOfCollapse(examples, result, stats, terminal);
-  if (options.control.detail > 1) {
-    terminal.step("pulling finer detail");
-    examples.refine(options.control.detail, options.reading, terminal.progress());
-    result =
-        addDetail(examples.fields(), result.origins, options.control.detail, terminal.progress());
-    if (result.status == SynthesisStatus::Cancelled) throw Interrupted();
-    stats["detail"] = options.control.detail;
+  Result result = plan.engine->run(examples, plan.request, progress.part(0.15, 0.6));
+  requireComplete(result);
+  if (plan.surface.detail > 1) {
+    examples = refined(examples, plan.surface.detail, progress.part(0.6, 0.65));
+    result = withDetail(result, examples, plan.surface.detail, progress.part(0.65, 0.7));
   }
   const double synthesisSeconds = synthesis.seconds();
-  terminal.say("result", readableSize(result.field.size()) + " in " +
-                             readableSeconds(synthesisSeconds) + ", seed " +
-                             std::to_string(options.seed));
+  for (const auto& [label, note] : result.notes) terminal.say(label, note);
+  for (const std::string& warning : result.warnings) terminal.warn(warning);
+  terminal.say("result", readableExtent(result) + " in " + readableSeconds(synthesisSeconds) +
+                             ", seed " + std::to_string(result.seed));
 
-  const Stopwatch surface;
-  const bool meshOut = isMeshFile(options.output);
-  if (meshOut || !options.preview.empty() || !options.report.empty()) {
-    const auto [mesh, health] = reconstruct(options, examples, result, terminal);
-    stats["mesh"] = toJson(health);
-    Image8 image;
-    if (!options.preview.empty()) image = render(mesh, picture, terminal.progress());
-    terminal.stopIfInterrupted();
-    if (meshOut) {
-      terminal.step("writing " + options.output);
-      writeMesh(options.output, mesh, options.reading.mesh);
-      terminal.say("mesh", options.output + ": " + readableHealth(health));
-    }
-    if (!options.preview.empty()) {
-      writePng(options.preview, image);
-      terminal.say("picture", options.preview);
-    }
-    if (!options.report.empty()) {
-      writeReport(options, examples, result, mesh, synthesisSeconds, picture, terminal);
-    }
+  const Stopwatch surfacing;
+  std::optional<Surface> surface;
+  if (needsSurface(options.output, result, plan.output) || !options.preview.empty() ||
+      !options.report.empty())
+    surface = realize(result, examples, plan.surface, progress.part(0.7, 0.85));
+  const Written written =
+      writeResult(options.output, result, examples, surface ? &*surface : nullptr, plan.output,
+                  progress.part(0.85, 0.9));
+  terminal.wrote(written.label, options.output, written.text);
+  if (!options.preview.empty()) {
+    writePng(options.preview, render(surface->mesh, plan.picture, progress.part(0.9, 0.95)));
+    terminal.wrote("picture", options.preview, options.preview);
   }
-  if (isHeightMapFile(options.output)) {
-    writeHeightMap(options.output, sdfToHeightMap(result.field), example.heights);
-    terminal.say("heights", options.output);
-  }
-  if (lowerExtension(options.output) == ".vdb") {
-    writeVdb(options.output, result.field, parseAxes(options.control.periodic, "--periodic"));
-    terminal.say("field", options.output);
+  if (!options.report.empty()) {
+    writeReport(options, plan, examples, result, *surface, synthesisSeconds,
+                progress.part(0.95, 1));
+    terminal.wrote("report", options.report, options.report);
   }
   if (!options.origins.empty()) {
-    writeOriginsVdb(options.origins, result.origins, result.field);
-    terminal.say("origins", options.origins);
+    writeOriginsVdb(options.origins, result.origins, result.field());
+    terminal.wrote("origins", options.origins, options.origins);
   }
-
-  stats["seconds"] = {{"read", readSeconds},
-                      {"synthesis", synthesisSeconds},
-                      {"surface_and_picture", surface.seconds()},
-                      {"total", total.seconds()}};
-  stats["peak_rss_bytes"] = peakResidentBytes();
   if (!options.stats.empty()) {
-    writeFile(options.stats, stats.dump(2) + "\n");
-    terminal.say("stats", options.stats);
+    Json stats = {{"example", options.examples.front()},
+                  {"output", options.output},
+                  {"engine", result.engine},
+                  {"seed", result.seed},
+                  {"outcome", outcomeName(result.outcome)}};
+    stats.update(toJson(result.statistics));
+    if (surface) stats["mesh"] = toJson(surface->health);
+    stats["warnings"] = terminal.warnings();
+    stats["seconds"] = {{"read", readSeconds},
+                        {"synthesis", synthesisSeconds},
+                        {"surface_and_picture", surfacing.seconds()},
+                        {"total", total.seconds()}};
+    stats["peak_rss_bytes"] = peakResidentBytes();
+    writeFile(options.stats, stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    terminal.wrote("stats", options.stats, options.stats);
   }
-  terminal.say("done", readableSeconds(total.seconds()) + ", " +
-                           readableBytes(static_cast<double>(peakResidentBytes())) +
-                           " of memory at its peak");
+  terminal.done(readableSeconds(total.seconds()) + ", " +
+                readableBytes(static_cast<double>(peakResidentBytes())) + " of memory at its peak");
+}
+
+void addSettings(CLI::App& command, Settings& into) {
+  SettingOptions options;
+  options.add("Request", "", requestSettings());
+  options.add("Reading a mesh, volume or height map as distances", "distances",
+              readingSettings(Form::Field).settings());
+  options.add("Reading labels, or a mesh or picture cut into labels", "labels",
+              readingSettings(Form::Labels).settings());
+  for (const Engine* engine : engines()) {
+    const std::string name(engine->name());
+    options.add("Engine " + name + ": " + std::string(engine->meaning()), name, engine->settings());
+  }
+  options.add("The result's surface", "", surfaceSettings(Form::Field).settings());
+  options.add("The result's surface", "", surfaceSettings(Form::Labels).settings());
+  options.install(command, into);
 }
 
 }  // namespace
 
-CommandRun addSynthCommand(CLI::App& app) {
+Command addSynthCommand(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("synth", "Synthesize more of an example");
   command
-      ->add_option("EXAMPLE", options->example,
-                   "a mesh, a volume, a height map or a scene (see exemplar --help)")
+      ->add_option("EXAMPLE", options->examples,
+                   "a mesh, a volume, a height map, a grid of labels, a picture or a scene (see "
+                   "exemplar --help); several are mixed, or, with --frames, are the frames of one "
+                   "that changes over time")
       ->required();
   command
       ->add_option("-o,--output", options->output,
-                   std::string("what to write; its ending chooses the format: ") + kOutputEndings)
+                   std::string("what to write; its ending chooses the format: of distances ") +
+                       outputEndings(Form::Field) + ", of labels " + outputEndings(Form::Labels))
       ->required();
-  command->add_option("--scale", options->scale,
-                      "the result's size as a multiple of the example's: X,Y,Z or one number "
-                      "(the example's own choice, mostly 2,2,1)");
-  command->add_option("--seed", options->seed, "another seed, another result")
-      ->capture_default_str();
+  std::string names;
+  for (const Engine* engine : engines()) names += "|" + std::string(engine->name());
   command
       ->add_option("--engine", options->engine,
-                   "geometry (this: distance fields) or model (labels and pieces, with options of "
-                   "its own: exemplar synth --engine model --help)")
-      ->check(CLI::IsMember({"geometry", "model"}))
-      ->capture_default_str();
+                   "what makes it (auto: model for labels and scenes of pieces, else geometry)")
+      ->option_text("auto" + names);
   command
-      ->add_option("--method", options->method,
-                   "optimize (overlapping patches; the default) or blocks (Lagae 2004)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Method>{
-          {"blocks", Method::Blocks}, {"optimize", Method::Optimize}}))
-      ->option_text("blocks|optimize");
-  command->add_option("--block", options->block, "blocks: samples a side at the finest level (16)")
-      ->check(CLI::Range(2, 256));
-  command->add_option("--levels", options->levels, "levels of resolution (3 for blocks)")
-      ->check(CLI::Range(1, 8));
-  command
-      ->add_option("--seeding", options->seeding,
-                   "blocks: what samples not made yet count as: random ones of the example (as "
-                   "published), or nothing (masked)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, BlockSeeding>{
-          {"random", BlockSeeding::Random}, {"masked", BlockSeeding::Masked}}))
-      ->option_text("random|masked");
-  command
-      ->add_option("--surface", options->surface,
-                   "contour the new field (closed, manifold), or copy the example's triangles")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Surface>{{"contour", Surface::Contour}, {"copy", Surface::Copy}}))
-      ->option_text("contour|copy");
+      ->add_option("--with", options->with,
+                   "another example, to mix with the first (may be repeated)")
+      ->allow_extra_args(false);
   command->add_option("--preview", options->preview, "also write a picture of the result (.png)");
   command->add_option("--stats", options->stats, "also write figures of the run (.json)");
   command->add_option("--origins", options->origins,
                       "also write where each sample of the result came from (.vdb)");
   command->add_option("--report", options->report,
-                      "also write a page with surfaces that turn, figures and what shows (.html)");
-  addControlOptions(*command, options->control);
-  addExampleOptions(*command, options->reading);
-  addPictureOptions(*command, options->picture);
-  addCommonOptions(*command, options->common);
-  return [options] { synth(*options); };
+                      "also write a page with surfaces that turn, figures and marks (.html)");
+  addSettings(*command, options->settings);
+  addPictureOptions(*command, options->picture, "--picture-size");
+  return {command, addCommonOptions(*command),
+          [options](Terminal& terminal) { synth(*options, terminal); }};
 }
 
 }  // namespace exemplar

@@ -9,9 +9,20 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "engine/words.h"
 
 namespace exemplar {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Version of what `ProgressStyle::Json` writes.
+constexpr int kProtocol = 1;
+/// Progress is shown at most this often.
+constexpr std::chrono::milliseconds kShowEvery{100};
 
 std::atomic<bool> interruptedFlag{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
@@ -22,20 +33,24 @@ void onInterrupt(int) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-double secondsSince(std::chrono::steady_clock::time_point t) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
+/// Names may hold bytes that are not UTF-8.
+std::string dumped(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
 
-Terminal::Terminal(bool quiet)
-    : quiet_(quiet),
-      interactive_(isatty(STDERR_FILENO) != 0),
+Terminal::Terminal(ProgressStyle style, bool quiet)
+    : style_(style),
+      quiet_(quiet),
       progress_([this](std::string_view stage, double fraction) { show(stage, fraction); },
                 &interruptedFlag) {
+  if (style_ == ProgressStyle::Auto && isatty(STDERR_FILENO) != 0) style_ = ProgressStyle::Line;
+  if (quiet_ && style_ != ProgressStyle::Json) style_ = ProgressStyle::None;
   interruptedFlag.store(false);
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
+  event(dumped({{"event", "start"}, {"version", EXEMPLAR_VERSION}, {"protocol", kProtocol}}));
 }
 
 Terminal::~Terminal() {
@@ -44,42 +59,37 @@ Terminal::~Terminal() {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-void Terminal::step(std::string_view stage) {
-  stopIfInterrupted();
-  show(stage, 0);
-}
-
-void Terminal::stopIfInterrupted() const {
-  if (progress_.cancelled()) throw Interrupted();
+void Terminal::event(const std::string& json) {
+  if (style_ != ProgressStyle::Json) return;
+  std::fprintf(stderr, "%s\n", json.c_str());
+  std::fflush(stderr);
 }
 
 void Terminal::show(std::string_view stage, double fraction) {
-  if (quiet_) return;
   const std::lock_guard lock(mutex_);
+  meter_.report(stage, fraction);
+  if (style_ == ProgressStyle::None) return;
   const bool begins = stage != stage_;
-  if (begins) {
-    stage_ = stage;
-    began_ = std::chrono::steady_clock::now();
-  }
-  if (!interactive_) {
+  stage_ = stage;
+  if (style_ == ProgressStyle::Auto) {
     if (begins) std::fprintf(stderr, "  %s ...\n", stage_.c_str());
     return;
   }
-  if (!begins && secondsSince(shown_) < 0.1) return;
-  shown_ = std::chrono::steady_clock::now();
-  std::string line = "  " + stage_;
-  const double elapsed = secondsSince(began_);
-  if (fraction > 0) {
-    char percent[16];
-    std::snprintf(percent, sizeof percent, "  %3.0f %%", 100 * fraction);
-    line += percent;
-    if (elapsed > 1 && fraction > 0.02) {
-      line +=
-          "  about " + readableSeconds(std::ceil(elapsed * (1 - fraction) / fraction)) + " left";
-    }
-  } else {
-    line += " ...";
+  const auto now = std::chrono::steady_clock::now();
+  if (now - shown_ < kShowEvery) return;
+  shown_ = now;
+  const ProgressState state = meter_.state();
+  if (style_ == ProgressStyle::Json) {
+    Json json{{"event", "progress"}, {"stage", state.stage}, {"fraction", state.fraction}};
+    if (state.secondsLeft) json["seconds_left"] = *state.secondsLeft;
+    event(dumped(json));
+    return;
   }
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%3.0f %%  ", 100 * state.fraction);
+  std::string line = percent + state.stage;
+  if (state.secondsLeft)
+    line += ", about " + readableSeconds(std::ceil(*state.secondsLeft)) + " left";
   const std::size_t width = line.size();
   if (width < width_) line.append(width_ - width, ' ');
   width_ = width;
@@ -91,44 +101,56 @@ void Terminal::wipe() {
   const std::lock_guard lock(mutex_);
   if (width_ > 0) std::fprintf(stderr, "\r%*s\r", static_cast<int>(width_), "");
   width_ = 0;
-  stage_.clear();
 }
 
 void Terminal::say(std::string_view label, const std::string& text) {
   wipe();
   if (quiet_) return;
-  std::printf("%-9.*s %s\n", static_cast<int>(label.size()), label.data(), text.c_str());
+  std::printf("%-9.*s %s\n", static_cast<int>(label.size()), label.data(),
+              spelledAsOptions(text).c_str());
   std::fflush(stdout);
 }
 
-std::string withThousands(long long n) {
-  std::string digits = std::to_string(n < 0 ? -n : n);
-  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, ",");
-  return n < 0 ? "-" + digits : digits;
+void Terminal::print(const std::string& text) {
+  wipe();
+  if (!quiet_) std::fputs(text.c_str(), stdout);
 }
 
-std::string readableSeconds(double seconds) {
-  char text[32];
-  if (seconds < 10) {
-    std::snprintf(text, sizeof text, seconds == std::floor(seconds) ? "%.0f s" : "%.2f s", seconds);
-  } else if (seconds < 120) {
-    std::snprintf(text, sizeof text, "%.0f s", seconds);
+void Terminal::warn(const std::string& text) {
+  wipe();
+  warnings_.push_back(spelledAsOptions(text));
+  if (style_ == ProgressStyle::Json) {
+    event(dumped({{"event", "warning"}, {"text", warnings_.back()}}));
   } else {
-    std::snprintf(text, sizeof text, "%d min %d s", static_cast<int>(seconds) / 60,
-                  static_cast<int>(seconds) % 60);
+    std::fprintf(stderr, "warning: %s\n", warnings_.back().c_str());
   }
-  return text;
 }
 
-std::string readableBytes(double bytes) {
-  char text[32];
-  if (bytes < 1e6) {
-    std::snprintf(text, sizeof text, "%.0f KB", bytes / 1e3);
+void Terminal::wrote(std::string_view label, const std::filesystem::path& path,
+                     const std::string& text) {
+  written_.push_back(path.string());
+  event(dumped({{"event", "file"}, {"kind", std::string(label)}, {"path", path.string()}}));
+  say(label, text);
+}
+
+void Terminal::done(const std::string& text) {
+  event(dumped({{"event", "done"}}));
+  say("done", text);
+}
+
+void Terminal::fail(const std::string& text, int status) {
+  wipe();
+  const std::string line = spelledAsOptions(text.substr(0, text.find('\n')));
+  if (style_ == ProgressStyle::Json) {
+    event(dumped({{"event", "error"}, {"status", status}, {"text", line}}));
   } else {
-    std::snprintf(text, sizeof text, bytes < 1e9 ? "%.0f MB" : "%.1f GB",
-                  bytes / (bytes < 1e9 ? 1e6 : 1e9));
+    std::fprintf(stderr, "exemplar: %s\n", line.c_str());
   }
-  return text;
+}
+
+std::string Terminal::interruption() const {
+  if (written_.empty()) return "interrupted; no file was written";
+  return "interrupted; written before: " + joined(written_, "and");
 }
 
 }  // namespace exemplar

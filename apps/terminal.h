@@ -4,52 +4,69 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <mutex>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/progress.h"
 
 namespace exemplar {
 
-/// Thrown between two steps of a command when the user has pressed Ctrl-C; exit status 4.
-class Interrupted : public std::runtime_error {
- public:
-  Interrupted() : std::runtime_error("interrupted; no file was written") {}
+/// How progress is shown on standard error.
+enum class ProgressStyle {
+  Auto,  ///< Line on a terminal; elsewhere each stage is named once when it begins
+  Line,  ///< one line that changes: the stage, how much of the command is done, the time left
+  Json,  ///< JSON objects, one a line, for programs (docs/progress.md)
+  None,
 };
 
-/// The user at the terminal: sees how far the work is, may stop it by Ctrl-C.
-///
-/// On a terminal one line on stderr tells the stage, its percentage and an estimate of the time
-/// left; elsewhere each stage is named once when it begins. Ctrl-C asks the work to stop; a second
-/// one ends the process at once.
+/// The user at the terminal: sees how far the command is, reads its summary, may stop it by Ctrl-C.
+/// Ctrl-C asks the work to stop; a second one ends the process at once.
 class Terminal {
  public:
-  explicit Terminal(bool quiet = false);
+  Terminal(ProgressStyle style, bool quiet);
   ~Terminal();
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
 
   /// What to hand to long work; valid as long as this object.
   const Progress& progress() const { return progress_; }
-  /// Wipes the progress line and begins a new step; throws `Interrupted` when Ctrl-C was pressed.
-  void step(std::string_view stage);
-  /// Wipes the progress line and prints one line of the summary to stdout: a label and its text.
+  /// One line of the summary on standard output: a label and its text.
   void say(std::string_view label, const std::string& text);
+  /// Text on standard output, as it is.
+  void print(const std::string& text);
+  /// No summary from here on, for a command that prints a document.
+  void beQuiet() { quiet_ = true; }
+  /// One line on standard error about what is doubtful or was left out.
+  void warn(const std::string& text);
+  /// Says that a file was written.
+  void wrote(std::string_view label, const std::filesystem::path& path, const std::string& text);
+  /// Says that the command is done.
+  void done(const std::string& text);
+  /// Says that it failed: one line on standard error.
+  void fail(const std::string& text, int status);
   /// Wipes the progress line.
   void wipe();
-  /// Throws `Interrupted` when Ctrl-C was pressed.
-  void stopIfInterrupted() const;
+
+  /// The warnings there were.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// What an interrupted command says: which files it has written by then.
+  std::string interruption() const;
 
  private:
   void show(std::string_view stage, double fraction);
+  void event(const std::string& json);
 
-  bool quiet_, interactive_;
+  ProgressStyle style_;
+  bool quiet_;
   std::mutex mutex_;
+  ProgressMeter meter_;
   std::string stage_;
-  std::chrono::steady_clock::time_point began_, shown_;
+  std::chrono::steady_clock::time_point shown_;
   std::size_t width_ = 0;
+  std::vector<std::string> warnings_, written_;
   Progress progress_;
 };
 
@@ -63,12 +80,5 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
-
-/// "12,345,678".
-std::string withThousands(long long n);
-/// "0.83 s", "12 s", "3 min 20 s".
-std::string readableSeconds(double seconds);
-/// "812 MB".
-std::string readableBytes(double bytes);
 
 }  // namespace exemplar

@@ -1,0 +1,63 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "engine/engine.h"
+#include "mesh/mesh_file.h"
+#include "preview/render.h"
+
+/// Engines compared: on one example, at one size, measured by one ruler.
+namespace exemplar {
+
+/// An engine with settings of its own, "blocks:block=8:levels=2".
+struct ComparedEngine {
+  std::string name;  ///< as it was written
+  const Engine* engine = nullptr;
+  Settings settings;
+};
+/// Reads "NAME" or "NAME:KEY=VALUE:..."; the keys are those of `settingsOf` that say how the engine
+/// works, not what is asked of it. `optimize` is another name of geometry, and `overlap` is model
+/// on blocks of 8 samples that share 2. Throws `InputError`.
+ComparedEngine parseComparedEngine(const std::string& text);
+
+struct ComparisonOptions {
+  std::filesystem::path folder;  ///< for meshes, pictures, compare.json and report.html
+  std::vector<ComparedEngine> engines;
+  std::optional<Vec3d> scale;  ///< the example's hint by default
+  std::uint64_t firstSeed = 0;
+  int seeds = 3;
+  RenderOptions picture;
+  MeshFileOptions mesh;
+};
+
+/// One run of a comparison, for people.
+struct ComparedRun {
+  std::string engine;
+  std::uint64_t seed = 0;
+  /// "complete", "empty", "impossible", "unfinished" or "refused": that an engine cannot take the
+  /// example is a finding.
+  std::string status;
+  std::string why;  ///< where it is not complete
+  double seconds = 0;
+  std::optional<double> lpDense, coverage;
+  bool again = false;  ///< it was made before
+};
+
+/// Runs every engine with every seed on the example, of the form Field; measures, draws and writes
+/// each result into the folder, and the whole as compare.json and report.html. What the folder
+/// holds of the same request is not made again. `finished` hears of each run. Throws `InputError`
+/// and `Cancelled`; what was finished by then stays in the folder.
+void compare(const Example& example, const ComparisonOptions& options,
+             const std::function<void(const ComparedRun&)>& finished = {},
+             const Progress& progress = {});
+
+}  // namespace exemplar

@@ -1,0 +1,23 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "engine/engine.h"
+
+/// The engines there are.
+namespace exemplar {
+
+/// Geometry synthesis: `quiltingEngine` where the example and the request suit it, else
+/// `votingEngine`.
+const Engine& geometryEngine();
+/// Large pieces of the example joined by cuts (`synth/geometry/quilting`).
+const Engine& quiltingEngine();
+/// Patches matched and voted, coarse to fine (`synth/geometry/voting`).
+const Engine& votingEngine();
+/// Best-matching blocks (Lagae, Dumont, Dutré 2004; `synth/geometry/blocks.h`).
+const Engine& blocksEngine();
+/// Model synthesis (Merrell 2007, 2009; `synth/model`).
+const Engine& modelEngine();
+
+}  // namespace exemplar

@@ -1,0 +1,139 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "engine/example.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "engine/example_forms.h"
+#include "engine/words.h"
+#include "mesh/image.h"
+
+namespace exemplar {
+namespace {
+
+constexpr Range kAir{0, 1024};
+
+SettingTable<ReadOptions>::Row meshUpRow() {
+  return choiceRow<ReadOptions, UpAxis>(
+      "up", [](ReadOptions& o) -> UpAxis& { return o.mesh.up; },
+      "which axis is up in mesh files: y for .obj and .glb, else z, where it is auto",
+      {{"auto", UpAxis::Default}, {"y", UpAxis::Y}, {"z", UpAxis::Z}});
+}
+
+}  // namespace
+
+const SettingTable<ReadOptions>& readingSettings(Form form) {
+  using O = ReadOptions;
+  const auto sceneSeed = [] {
+    return settingRow<O>("scene-seed", &O::sceneSeed,
+                         "another sample of a scene's own random process", {}, "", "the scene's");
+  };
+  const auto cellSize = [] {
+    return settingRow<O>("cell-size", &O::cellSize,
+                         "distance of a height map's points, where the file does not say",
+                         kAboveZero, "world units", "so that its relief is a fifth of its side");
+  };
+  const auto heightScale = [] {
+    return settingRow<O>("height-scale", &O::heightScale,
+                         "height of one step of a height map's integers", kAboveZero, "world units",
+                         "1");
+  };
+  static const SettingTable<O> field{
+      settingRow<O>("resolution", &O::resolution,
+                    "samples along the example's longest side; finer detail is lost", {4, 4096},
+                    "samples", "64; a volume keeps its own"),
+      settingRow<O>("padding", &O::padding, "air around a mesh", kAir, "voxels",
+                    "4; 0 where the example goes on past its box"),
+      sceneSeed(),
+      cellSize(),
+      heightScale(),
+      meshUpRow()};
+  static const SettingTable<O> labels{
+      settingRow<O>("cell", &O::cell, "side of a cell of a mesh, which cuts it into model pieces",
+                    kAboveZero, "world units", "a scene's own"),
+      settingRow<O>("resolution", &O::resolution,
+                    "cells, or samples of a field, along the longest side, in place of `cell`",
+                    {1, 4096}, "", "by the kind of example"),
+      settingRow<O>("air", &O::air, "empty cells at a mesh's sides and above it", kAir, "cells",
+                    "1; 0 for a scene"),
+      settingRow<O>("tolerance", &O::tolerance, "how far equal pieces of a mesh may differ",
+                    {1e-7, 0.1}, "cells"),
+      settingRow<O>(
+          "piece", [](O& o) -> int& { return o.image.piece; },
+          "side of what is one label in a picture", {1, 256}, "pixels"),
+      settingRow<O>(
+          "overlap", [](O& o) -> bool& { return o.image.overlap; },
+          "let a picture's pieces begin at every pixel"),
+      settingRow<O>(
+          "field-block", [](O& o) -> Vec3i& { return o.blocks.block; },
+          "side of what is one label in a distance field (of a mesh without `cell`, a "
+          "height map, a volume)",
+          {2, 64}, "samples", "found"),
+      settingRow<O>(
+          "field-tolerance", [](O& o) -> double& { return o.blocks.tolerance; },
+          "how far blocks of one label may differ", {0, 16}, "voxels"),
+      settingRow<O>(
+          "field-truncation", [](O& o) -> double& { return o.blocks.truncation; },
+          "distances count up to here when blocks are compared", kAboveZero, "voxels"),
+      settingRow<O>(
+          "field-overlap", [](O& o) -> int& { return o.blocks.overlap; },
+          "samples that neighboring blocks of a field share; those are neighbors that "
+          "agree in them (0: blocks tile, and are neighbors as in the example)",
+          {0, 63}, "samples"),
+      sceneSeed(),
+      cellSize(),
+      heightScale(),
+      meshUpRow()};
+  return form == Form::Field ? field : labels;
+}
+
+Example readExample(const Source& source, const ReadOptions& options, const Progress& progress) {
+  progress.report("reading " + source.name(), 0);
+  Example example;
+  example.source = source;
+  example.reading = options;
+  example.kind = sourceKind(source);
+  if (!options.form) {
+    const bool labels = example.kind == SourceKind::Labels || example.kind == SourceKind::Pieces ||
+                        example.kind == SourceKind::Picture;
+    example.reading.form = labels ? Form::Labels : Form::Field;
+  }
+  if (example.reading.form == Form::Field) {
+    readAsField(example, progress);
+  } else {
+    readAsLabels(example, progress);
+  }
+  progress.report("reading " + source.name(), 1);
+  return example;
+}
+
+std::vector<Example> readExamples(std::span<const Source> sources, const ReadOptions& options,
+                                  const Progress& progress) {
+  if (sources.empty()) throw InputError("there is no example");
+  std::vector<Example> examples;
+  const double share = 1.0 / static_cast<double>(sources.size());
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    const double from = share * static_cast<double>(n);
+    const Progress part = progress.part(from, from + share);
+    examples.push_back(readExample(sources[n], options, part));
+    if (n > 0 && examples[n].form() != examples[0].form()) {
+      throw InputError(sources[n].name() + " and " + sources[0].name() +
+                       " are of different kinds; examples that are used together should be alike");
+    }
+    if (n > 0 && examples[n].form() == Form::Field) sampleAlike(examples[n], examples[0], part);
+  }
+  if (examples[0].form() == Form::Labels) numberAlike(examples);
+  return examples;
+}
+
+std::vector<const DistanceField*> fieldsOf(std::span<const Example> examples) {
+  std::vector<const DistanceField*> fields;
+  for (const Example& example : examples) fields.push_back(&example.field());
+  return fields;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,136 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/axes.h"
+#include "core/progress.h"
+#include "engine/setting.h"
+#include "engine/source.h"
+#include "mesh/mesh_file.h"
+#include "mesh/triangle_mesh.h"
+#include "sdf/distance_field.h"
+#include "sdf/height_map.h"
+#include "voxelize/field_blocks.h"
+#include "voxelize/label_grid.h"
+#include "voxelize/label_image.h"
+#include "voxelize/mesh_to_labels.h"
+#include "voxelize/model_pieces.h"
+
+/// What an example is: the beginning of the main path.
+namespace exemplar {
+
+/// What an engine works on.
+enum class Form {
+  Field,   ///< signed distances (geometry synthesis)
+  Labels,  ///< a grid of labels (model synthesis)
+};
+
+/// An example, or a result, as an engine sees it. In the order of `Form`.
+using Representation = std::variant<DistanceField, LabelGrid>;
+
+/// How distances become labels: blocks of the field.
+struct LabeledField {
+  DistanceField field;
+  FieldBlocks blocks;
+};
+/// What a grid of labels was made of, and is made into again: nothing but itself, model pieces of a
+/// mesh, pieces of a picture, or blocks of a distance field.
+using LabelContent = std::variant<std::monostate, ModelPieces, ImageLabels, LabeledField>;
+
+/// Good values for what a request does not say.
+struct Hints {
+  Vec3d scale{2, 2, 1};  ///< of the result, in boxes of the example
+  int block = 16;        ///< samples a side of the blocks of `blocks` at the finest level
+};
+
+/// How far from the surface an example's distances are exact, in voxels. Matching truncates
+/// further.
+inline constexpr double kExampleHalfWidth = 16;
+
+/// How an example is read and sampled. What is left out follows from the kind of example.
+struct ReadOptions {
+  std::optional<Form> form;  ///< Labels for grids of labels and scenes of pieces, else Field
+  /// Samples (Field) or cells (Labels) along the longest side, 4..4096 and 1..4096.
+  std::optional<int> resolution;
+  std::optional<int> padding;              ///< Field: voxels of air around a mesh, 0..1024
+  std::optional<std::uint64_t> sceneSeed;  ///< another sample of a scene's random process
+  MeshFileOptions mesh;
+  std::optional<double> cellSize;     ///< world distance of a height map's points, > 0
+  std::optional<double> heightScale;  ///< world height of one step of its integers, > 0
+
+  // Labels only:
+  std::optional<Vec3d> cell;         ///< sides of a cell of a mesh, world units, > 0
+  std::optional<int> air;            ///< empty cells around a mesh, 0..1024
+  bool voxels = false;               ///< a mesh as materials in cells, not as model pieces
+  VoxelFill fill = VoxelFill::Both;  ///< of these voxels
+  double tolerance = 1e-4;           ///< of equal model pieces, cells
+  ImageLabelsOptions image;          ///< how a picture is cut
+  FieldBlocksOptions blocks;         ///< how a distance field is cut
+};
+
+/// The settings that fill `ReadOptions`, for examples of a form.
+const SettingTable<ReadOptions>& readingSettings(Form form);
+
+/// An example, read and sampled.
+struct Example {
+  Source source;
+  ReadOptions reading;  ///< as it was read
+  SourceKind kind = SourceKind::Mesh;
+  std::string description;  ///< for people: "mesh of 23,952 triangles at 64 x 64 x 24 samples"
+  /// Distances, truncated at `kExampleHalfWidth` voxels, or labels.
+  Representation data;
+  LabelContent content;              ///< of labels
+  std::optional<TriangleMesh> mesh;  ///< where materials, colors and finer detail come from
+  Hints hints;
+  Axes continues;                     ///< along which it goes on past its box: a volume that tiles
+  HeightMapFileOptions heights;       ///< the units of a height map, to write one alike
+  std::vector<std::string> warnings;  ///< what the file holds that was not read
+
+  Form form() const { return static_cast<Form>(data.index()); }
+  /// Throw `std::bad_variant_access` where it is of the other form.
+  const DistanceField& field() const { return std::get<DistanceField>(data); }
+  const LabelGrid& labels() const { return std::get<LabelGrid>(data); }
+  std::string name() const { return source.name(); }
+};
+
+/// Reads an example and samples it in the form that an engine works on.
+///
+/// As a field: a mesh gets a margin of air, because an object ends at its box; a scene and a volume
+/// are windows into something larger, and get none. As labels: a mesh or scene is cut into model
+/// pieces along `cell` or the scene's own grid; a picture into its pieces; what has no grid (a mesh
+/// without `cell`, a height map, a volume) is sampled as a field, whose blocks are labels.
+/// Throws `InputError` and `Cancelled`.
+Example readExample(const Source& source, const ReadOptions& options = {},
+                    const Progress& progress = {});
+
+/// The same as solid cells: of a volume or a height map, one label for what is inside, in cells of
+/// its samples; of everything else as `readExample` does.
+Example readSolid(const Source& source, const ReadOptions& options, const Progress& progress = {});
+
+/// Reads examples that are used together. Fields are sampled with the voxels of the first; labels
+/// share one numbering, by number in .txt and .vdb, by color in .vox and pictures, and the first
+/// example knows the looks of all.
+std::vector<Example> readExamples(std::span<const Source> sources, const ReadOptions& options = {},
+                                  const Progress& progress = {});
+
+/// An example's field cut into labeled blocks, as an example of the form Labels.
+Example labeled(const Example& example, const FieldBlocksOptions& options,
+                const Progress& progress = {});
+
+/// The examples sampled `factor` times as finely, in their boxes. Throws `InputError` for volumes,
+/// which have no finer samples.
+std::vector<Example> refined(std::span<const Example> examples, int factor,
+                             const Progress& progress = {});
+
+/// The fields of examples, as the engines take them.
+std::vector<const DistanceField*> fieldsOf(std::span<const Example> examples);
+
+}  // namespace exemplar

@@ -1,0 +1,24 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <vector>
+
+#include "core/progress.h"
+#include "engine/example.h"
+
+/// The two ways of reading an example; what `readExample` calls.
+namespace exemplar {
+
+/// Fills the example whose source, kind and reading options are set, as distances or as labels.
+void readAsField(Example& example, const Progress& progress);
+void readAsLabels(Example& example, const Progress& progress);
+
+/// Samples an example with the voxels of `first`. Throws `InputError` for a volume of others.
+void sampleAlike(Example& example, const Example& first, const Progress& progress);
+
+/// Gives the examples, all labels, one numbering of labels.
+void numberAlike(std::vector<Example>& examples);
+
+}  // namespace exemplar

@@ -1,0 +1,168 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+// Examples as signed distances.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "engine/example_forms.h"
+#include "engine/words.h"
+#include "mesh/scene.h"
+#include "sdf/mesh_to_sdf.h"
+#include "sdf/vdb_file.h"
+#include "synth/geometry/detail.h"
+
+namespace exemplar {
+namespace {
+
+constexpr int kDefaultResolution = 64;
+constexpr int kDefaultPadding = 4;
+/// A mesh thinner than this part of its length, seen from above, is a panel: it is not doubled
+/// across its thickness.
+constexpr double kPanelThinness = 1.0 / 3;
+
+std::string triangleCount(const TriangleMesh& mesh) {
+  return withThousands(static_cast<long long>(mesh.triangles.size())) + " triangles";
+}
+
+/// Samples along a scene's longest side: a whole number to each of its cells, where it has any, so
+/// that what is equal in the scene is equal in the field.
+int usualResolution(const Scene& scene) {
+  if (!scene.cell) return scene.resolution;
+  const Vec3d size = scene.box.size();
+  int longest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (size[axis] > size[longest]) longest = axis;
+  const int cells =
+      std::max(1, static_cast<int>(std::lround(size[longest] / (*scene.cell)[longest])));
+  return cells * std::max(1, static_cast<int>(std::lround(1.0 * scene.resolution / cells)));
+}
+
+void sampleScene(Example& example, const Progress& progress) {
+  const ReadOptions& options = example.reading;
+  Scene scene = readScene(findScene(example.name()), {.seed = options.sceneSeed});
+  example.data = meshToSdf(scene.mesh,
+                           {.resolution = options.resolution.value_or(usualResolution(scene)),
+                            .box = scene.box,
+                            .padding = options.padding.value_or(0),
+                            .halfWidth = kExampleHalfWidth},
+                           progress);
+  example.description = "scene " + scene.name + ", " + triangleCount(scene.mesh);
+  example.hints = {scene.scale, scene.block};
+  example.mesh = std::move(scene.mesh);
+}
+
+void sampleMesh(Example& example, const Progress& progress) {
+  const ReadOptions& options = example.reading;
+  TriangleMesh mesh = readTriangles(example.source, options.mesh);
+  const int resolution = options.resolution.value_or(kDefaultResolution);
+  const int padding = options.padding.value_or(kDefaultPadding);
+  const Vec3d size = boundingBox(mesh).size();
+  // The margin is part of the resolution, which is the field's longest side.
+  const int inner = std::max(1, resolution - 2 * padding);
+  example.data = meshToSdf(mesh,
+                           {.voxelSize = std::max({size.x, size.y, size.z}) / inner,
+                            .padding = padding,
+                            .halfWidth = kExampleHalfWidth},
+                           progress);
+  if (size.x < kPanelThinness * size.y) example.hints.scale.x = 1;
+  if (size.y < kPanelThinness * size.x) example.hints.scale.y = 1;
+  example.description = "mesh of " + triangleCount(mesh);
+  example.mesh = std::move(mesh);
+}
+
+void sampleHeights(Example& example, const Progress& progress) {
+  const ReadOptions& options = example.reading;
+  example.heights.cellSize = options.cellSize;
+  example.heights.heightScale = options.heightScale.value_or(example.heights.heightScale);
+  const HeightMap map = readHeights(example.source, example.heights);
+  progress.report("sampling heights", 0.1);
+  example.data = heightMapToSdf(map, {.resolution = options.resolution.value_or(kDefaultResolution),
+                                      .halfWidth = kExampleHalfWidth});
+  example.description =
+      "height map of " + withThousands(map.width) + " x " + withThousands(map.height) + " points";
+}
+
+void takeVolume(Example& example, const Progress&) {
+  example.data = readDistances(example.source, &example.continues);
+  example.hints.scale = {2, 2, 2};
+  example.description = "volume";
+  if (example.continues.any())
+    example.description += " that tiles along " + readableAxes(example.continues);
+}
+
+}  // namespace
+
+void readAsField(Example& example, const Progress& progress) {
+  switch (example.kind) {
+    case SourceKind::Mesh:
+      sampleMesh(example, progress);
+      break;
+    case SourceKind::HeightMap:
+      sampleHeights(example, progress);
+      break;
+    case SourceKind::Scene:
+    case SourceKind::Pieces:
+      sampleScene(example, progress);
+      break;
+    case SourceKind::Volume:
+      takeVolume(example, progress);
+      break;
+    case SourceKind::Labels:
+    case SourceKind::Picture:
+      throw InputError(example.name() + ": labels have no distances; they need the engine model");
+  }
+  example.description += " at " + readableSize(example.field().size(), "samples");
+}
+
+void sampleAlike(Example& example, const Example& first, const Progress& progress) {
+  const double voxel = first.field().voxelSize;
+  if (example.mesh) {
+    const bool window = example.kind != SourceKind::Mesh;
+    const Box3d box = window ? example.field().box() : boundingBox(*example.mesh);
+    const int usual = window || first.kind != SourceKind::Mesh ? 0 : kDefaultPadding;
+    example.data = meshToSdf(*example.mesh,
+                             {.voxelSize = voxel,
+                              .box = box,
+                              .padding = example.reading.padding.value_or(usual),
+                              .halfWidth = kExampleHalfWidth},
+                             progress);
+  } else if (std::abs(example.field().voxelSize / voxel - 1) > 1e-3) {
+    throw InputError(example.name() + " has voxels of " + numberText(example.field().voxelSize) +
+                     ", not of " + numberText(voxel) + " as " + first.name() +
+                     "; sample them alike");
+  }
+}
+
+std::vector<Example> refined(std::span<const Example> examples, int factor,
+                             const Progress& progress) {
+  std::vector<Example> finer(examples.begin(), examples.end());
+  for (Example& example : finer) {
+    const DistanceField& coarse = example.field();
+    DistanceField fine;
+    if (example.mesh) {
+      fine = meshToSdf(*example.mesh,
+                       {.voxelSize = coarse.voxelSize / factor,
+                        .box = coarse.box(),
+                        .halfWidth = kExampleHalfWidth},
+                       progress);
+    } else if (example.kind == SourceKind::HeightMap) {
+      ReadOptions options = example.reading;
+      const Vec3i n = coarse.size();
+      options.resolution = factor * std::max({n.x, n.y, n.z});
+      fine = readExample(example.source, options, progress).field();
+    } else {
+      throw InputError("`detail`: " + example.name() +
+                       " is a volume, which has no finer samples; give the mesh that it was made "
+                       "of");
+    }
+    example.data = fine.size() == coarse.size() * factor ? std::move(fine)
+                                                         : sampledFinely(fine, coarse, factor);
+  }
+  return finer;
+}
+
+}  // namespace exemplar

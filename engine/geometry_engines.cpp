@@ -1,0 +1,370 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+// Geometry synthesis: from fields to a field.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "engine/engines.h"
+#include "engine/words.h"
+#include "measure/collapse.h"
+#include "measure/novelty.h"
+#include "measure/occupancy.h"
+#include "sdf/mesh_to_sdf.h"
+#include "sdf/resample.h"
+#include "synth/geometry/blocks.h"
+#include "synth/geometry/quilting/quilting.h"
+#include "synth/geometry/stationary.h"
+#include "synth/geometry/voting/voting.h"
+
+namespace exemplar {
+namespace {
+
+/// A mesh is sampled with this many voxels of air around it, to ask what is inside it.
+constexpr int kRegionPadding = 2;
+/// About what a sample of a result takes: the field, its origins, the search and the surface.
+constexpr double kBytesPerSample = 80;
+
+Vec3i fieldSize(std::span<const Example> examples, const Request& request) {
+  const Example& example = examples.front();
+  const Vec3i size = resultSize(request, example.field().size(), example.hints.scale, "samples");
+  requireMemory(kBytesPerSample * static_cast<double>(volume(size)),
+                "a result of " + readableSize(size, "samples"),
+                "use a lower `resolution` or a smaller `scale`");
+  return size;
+}
+
+/// A solid to ask for what is inside: a mesh's, or a volume's.
+DistanceField readRegion(const Source& source, double voxelSize, const ReadOptions& reading,
+                         const Progress& progress) {
+  switch (sourceKind(source)) {
+    case SourceKind::Mesh:
+      return meshToSdf(readTriangles(source, reading.mesh),
+                       {.voxelSize = voxelSize, .padding = kRegionPadding}, progress);
+    case SourceKind::Volume:
+      return readDistances(source);
+    default:
+      throw InputError("`keep`: " + source.name() + " is neither a mesh nor a .vdb");
+  }
+}
+
+/// Which samples of a result are inside the solid that is kept.
+Array3D<std::uint8_t> keptSamples(const Source& source, const DistanceField& example,
+                                  const Vec3i& size, const ReadOptions& reading,
+                                  const Progress& progress) {
+  const DistanceField region = readRegion(source, example.voxelSize, reading, progress);
+  const Box3d box = region.box();
+  Array3D<std::uint8_t> kept(size);
+  bool any = false;
+  forEachCell(min(size, example.size()), [&](const Vec3i& p) {
+    const Vec3d xyz = example.position(cast<double>(p));
+    if (!box.contains(xyz)) return;
+    kept[p] = sampleTrilinear(region, xyz) < 0;
+    any = any || kept[p];
+  });
+  if (!any) {
+    throw InputError("`keep`: no sample of the example is inside " + source.name() +
+                     "; it must be a solid in the example's own coordinates");
+  }
+  return kept;
+}
+
+/// The guide, stretched to the result's box, in voxels of the result.
+Array3D<float> guideDistances(const Source& source, const Vec3i& size, const ReadOptions& reading,
+                              const Progress& progress) {
+  ReadOptions options = reading;
+  options.form = Form::Field;
+  options.padding = 0;
+  const Example guideExample = readExample(source, options, progress);
+  const DistanceField& field = guideExample.field();
+  double stretch = 0;
+  Vec3d scale;
+  for (int axis = 0; axis < 3; ++axis) {
+    scale[axis] = static_cast<double>(field.size()[axis]) / size[axis];
+    stretch += 1 / scale[axis] / 3;
+  }
+  Array3D<float> guide(size);
+  parallelForEachCell(size, [&](const Vec3i& cell) {
+    const Vec3d p = cast<double>(cell);
+    Vec3d index;
+    for (int axis = 0; axis < 3; ++axis) index[axis] = (p[axis] + 0.5) * scale[axis] - 0.5;
+    guide[cell] = static_cast<float>(sampleTrilinear(field, field.position(index)) /
+                                     field.voxelSize * stretch);
+  });
+  return guide;
+}
+
+/// Warns where the result is all solid, all empty or one part repeated.
+void warnOfCollapse(std::span<const Example> examples, const SynthesisResult& made,
+                    Result& result) {
+  const Occupancy before(examples.front().field()), after(made.field);
+  CollapseSigns signs;
+  signs.exampleOccupancy = solidFraction(before);
+  signs.resultOccupancy = solidFraction(after);
+  signs.exampleSurface = surfaceDensity(before);
+  signs.resultSurface = surfaceDensity(after);
+  if (examples.size() == 1) signs.usedShare = surfaceUse(before, made.origins).usedShare;
+  const Collapse collapse = detectCollapse(signs);
+  result.statistics.emplace_back("collapse", collapseName(collapse));
+  if (collapse != Collapse::None) {
+    result.warnings.push_back(
+        collapseSentence(collapse, signs) +
+        "; try another `seed`, one of `levels` less, or another `stationary`");
+  }
+}
+
+/// A result of what an algorithm made by a method of that name.
+Result resultOf(SynthesisResult made, const std::string& method,
+                std::span<const Example> examples) {
+  const DistanceField& example = examples.front().field();
+  Result result;
+  result.statistics = {{"method", method},
+                       {"example_samples", example.size()},
+                       {"result_samples", made.field.size()},
+                       {"voxel_size", example.voxelSize},
+                       {"matches", made.matches}};
+  warnOfCollapse(examples, made, result);
+  result.data = std::move(made.field);
+  result.origins = std::move(made.origins);
+  return result;
+}
+
+/// Notes along which axes parts were moved, and whether that was found.
+void noteStationary(const Axes& axes, bool found, Result& result) {
+  result.statistics.emplace_back("stationary", readableAxes(axes));
+  result.notes.emplace_back(
+      "stationary", readableAxes(axes) + (found ? ", found from the example (`stationary`)" : ""));
+}
+
+constexpr const char* kStationary =
+    "axes along which the example is stationary (repeats itself), so that its parts may move along "
+    "them: xyz, xy, none, ...";
+constexpr const char* kTruncation = "distances are compared up to here";
+
+template <class O>
+typename SettingTable<O>::Row stationaryRow() {
+  return settingRow<O>("stationary", &O::stationary, kStationary, {}, "",
+                       "auto: found from the example");
+}
+template <class O>
+typename SettingTable<O>::Row truncationRow() {
+  return settingRow<O>("truncation", &O::truncation, kTruncation, kAboveZero, "voxels");
+}
+
+const SettingTable<QuiltingOptions>& quiltingTable() {
+  using O = QuiltingOptions;
+  static const SettingTable<O> table{stationaryRow<O>(),
+                                     settingRow<O>("levels", &O::levels, "levels of resolution",
+                                                   {1, 8}, "", "by the example's size"),
+                                     truncationRow<O>()};
+  return table;
+}
+
+const SettingTable<VotingOptions>& votingTable() {
+  using O = VotingOptions;
+  static const SettingTable<O> table{
+      stationaryRow<O>(),
+      settingRow<O>("rotations", &O::rotations, "parts may be turned by quarter turns about z"),
+      settingRow<O>("patch", &O::patch, "side of a patch", {3, 15}, "samples"),
+      settingRow<O>("levels", &O::levels, "levels of resolution", {1, 8}, "",
+                    "by the example's size"),
+      settingRow<O>("rounds", &O::rounds, "searches and votes a level", {1, 100}),
+      settingRow<O>("completeness", &O::completeness,
+                    "the smaller, the more each part of the example gets its turn; inf for none",
+                    kAboveZero, "squared voxels"),
+      settingRow<O>("guide-weight", &O::guideWeight, "weight of the guide beside the example",
+                    kAboveZero),
+      truncationRow<O>()};
+  return table;
+}
+
+/// What the engines on fields have in common.
+class FieldEngine : public Engine {
+ public:
+  Form form() const override { return Form::Field; }
+  Vec3i extentOf(std::span<const Example> examples, const Request& request) const override {
+    return fieldSize(examples, request);
+  }
+};
+
+class QuiltingEngine final : public FieldEngine {
+ public:
+  std::string_view name() const override { return "quilting"; }
+  std::string_view meaning() const override {
+    return "large pieces of the example, joined by cuts where both sides agree best (after Efros "
+           "and Freeman 2001, Kwatra et al. 2003)";
+  }
+  std::span<const Setting> settings() const override { return quiltingTable().settings(); }
+  std::span<const std::string_view> honors() const override {
+    static constexpr std::string_view keys[] = {"periodic"};
+    return keys;
+  }
+
+  static QuiltingOptions optionsOf(std::span<const Example> examples, const Request& request) {
+    QuiltingOptions options;
+    quiltingTable().apply(request.settings, options);
+    options.size = fieldSize(examples, request);
+    options.seed = request.seed;
+    options.periodic = request.periodic;
+    return options;
+  }
+
+ protected:
+  Result synthesize(std::span<const Example> examples, const Request& request,
+                    const Progress& progress) const override {
+    QuiltingOptions options = optionsOf(examples, request);
+    const DistanceField& example = examples.front().field();
+    const bool found = !options.stationary;
+    if (found) options.stationary = findStationaryAxes(example);
+    Result result =
+        resultOf(synthesizeByQuilting(example, options, progress), "quilting", examples);
+    noteStationary(*options.stationary, found, result);
+    return result;
+  }
+};
+
+class VotingEngine final : public FieldEngine {
+ public:
+  std::string_view name() const override { return "voting"; }
+  std::string_view meaning() const override {
+    return "overlapping patches matched and voted, coarse to fine (after Kwatra et al. 2005, "
+           "Simakov et al. 2008)";
+  }
+  bool mixes() const override { return true; }
+  std::span<const Setting> settings() const override { return votingTable().settings(); }
+  std::span<const std::string_view> honors() const override {
+    static constexpr std::string_view keys[] = {"periodic", "keep", "guide"};
+    return keys;
+  }
+
+ protected:
+  Result synthesize(std::span<const Example> examples, const Request& request,
+                    const Progress& progress) const override {
+    VotingOptions options;
+    votingTable().apply(request.settings, options);
+    options.size = fieldSize(examples, request);
+    options.seed = request.seed;
+    options.periodic = request.periodic;
+    const DistanceField& example = examples.front().field();
+    if (request.decided.keep) {
+      options.kept = keptSamples(*request.decided.keep, example, options.size, request.reading,
+                                 progress.part(0, 0.05));
+    }
+    if (request.guide) {
+      options.guide =
+          guideDistances(*request.guide, options.size, request.reading, progress.part(0.05, 0.1));
+    }
+    const std::vector<const DistanceField*> fields = fieldsOf(examples);
+    const bool found = !options.stationary;
+    if (found) options.stationary = stationaryAxes(fields, options.kept ? &*options.kept : nullptr);
+    Result result =
+        resultOf(synthesizeByVoting(fields, options, progress.part(0.1, 1)), "voting", examples);
+    noteStationary(*options.stationary, found, result);
+    return result;
+  }
+};
+
+/// The settings of both methods.
+class GeometryEngine final : public FieldEngine {
+ public:
+  std::string_view name() const override { return "geometry"; }
+  std::string_view meaning() const override {
+    return "quilting where the example and the request suit it, else voting; the default for "
+           "meshes, volumes and height maps";
+  }
+  bool mixes() const override { return true; }
+  std::span<const Setting> settings() const override { return votingEngine().settings(); }
+  std::span<const std::string_view> honors() const override { return votingEngine().honors(); }
+
+ protected:
+  Result synthesize(std::span<const Example> examples, const Request& request,
+                    const Progress& progress) const override {
+    return methodOf(examples, request).run(examples, request, progress);
+  }
+
+ private:
+  static const Engine& methodOf(std::span<const Example> examples, const Request& request) {
+    const bool plain = examples.size() == 1 && !request.decided.keep && !request.guide &&
+                       request.settings.text("rotations") != "true";
+    if (!plain) return votingEngine();
+    // What quilting does not have is asked of voting.
+    for (const auto& [key, text] : request.settings.given()) {
+      if (key != "rotations" &&
+          std::ranges::find(quiltingEngine().settings(), key, &Setting::key) ==
+              quiltingEngine().settings().end())
+        return votingEngine();
+    }
+    const QuiltingOptions options = QuiltingEngine::optionsOf(examples, request);
+    return suitsQuilting(examples.front().field(), options) ? quiltingEngine() : votingEngine();
+  }
+};
+
+class BlocksEngine final : public FieldEngine {
+ public:
+  std::string_view name() const override { return "blocks"; }
+  std::string_view meaning() const override {
+    return "best-matching blocks, copied coarse to fine, as published (Lagae, Dumont, Dutré 2004)";
+  }
+  std::span<const Setting> settings() const override { return table().settings(); }
+  std::span<const std::string_view> honors() const override { return {}; }
+
+ protected:
+  Result synthesize(std::span<const Example> examples, const Request& request,
+                    const Progress& progress) const override {
+    BlocksOptions options;
+    options.block = examples.front().hints.block;
+    table().apply(request.settings, options);
+    options.size = fieldSize(examples, request);
+    options.seed = request.seed;
+    return resultOf(synthesizeBlocks(examples.front().field(), options, progress), "blocks",
+                    examples);
+  }
+
+ private:
+  static const SettingTable<BlocksOptions>& table() {
+    using O = BlocksOptions;
+    static const SettingTable<O> settings{
+        settingRow<O>("block", &O::block, "side of a block at the finest level; a power of two",
+                      {2, 256}, "samples", "16; a scene's own"),
+        settingRow<O>("levels", &O::iterations, "levels of resolution", {1, 8}),
+        choiceRow<O, BlockSeeding>(
+            "seeding", &O::seeding,
+            "what samples that are not made yet count as: random ones of the example (as "
+            "published), or nothing",
+            {{"random", BlockSeeding::Random}, {"masked", BlockSeeding::Masked}}),
+        choiceRow<O, BlockSearch>(
+            "search", &O::search,
+            "how best matches are found, all exact: an index of blocks, the paper's search tree "
+            "(section 4), or a linear scan",
+            {{"index", BlockSearch::Index},
+             {"tree", BlockSearch::Tree},
+             {"scan", BlockSearch::Scan}}),
+        truncationRow<O>()};
+    return settings;
+  }
+};
+
+}  // namespace
+
+const Engine& geometryEngine() {
+  static const GeometryEngine engine;
+  return engine;
+}
+const Engine& quiltingEngine() {
+  static const QuiltingEngine engine;
+  return engine;
+}
+const Engine& votingEngine() {
+  static const VotingEngine engine;
+  return engine;
+}
+const Engine& blocksEngine() {
+  static const BlocksEngine engine;
+  return engine;
+}
+
+}  // namespace exemplar

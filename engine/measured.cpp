@@ -1,0 +1,68 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "engine/measured.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "engine/request.h"
+#include "measure/mesh_result.h"
+#include "sdf/vdb_file.h"
+
+namespace exemplar {
+
+std::optional<Measures> measure(const Result& result, std::span<const Example> examples,
+                                const TriangleMesh* surface, const Progress& progress) {
+  const Example& example = examples.front();
+  MeasureInput input;
+  input.mesh = surface;
+  if (result.form() == Form::Field) {
+    input.origins = &result.origins;
+    return measure(example.field(), result.field(), input, {}, progress);
+  }
+  const std::optional<SampledResult> placed = sampled(result, example);
+  if (!placed) return std::nullopt;
+  input.origins = &placed->origins;
+  return measure(std::get<LabeledField>(example.content).field, placed->field, input, {}, progress);
+}
+
+Measured readMeasured(const Source& result, const std::optional<Source>& origins,
+                      const std::optional<Vec3d>& scale, const Example& example,
+                      const Progress& progress) {
+  Measured measured;
+  if (origins) measured.origins = readOriginsVdb(origins->path());
+  if (sourceKind(result) != SourceKind::Mesh) {
+    if (scale)
+      throw InputError("`scale`: " + result.name() + " has a size of its own; only a mesh has not");
+    ReadOptions options = example.reading;
+    options.form = Form::Field;
+    options.padding = 0;
+    measured.field = readExample(result, options, progress).field();
+    return measured;
+  }
+  std::optional<Vec3i> size;
+  if (measured.origins.count() > 0) {
+    if (scale) throw InputError("`scale`: the origins say the size already; give one of the two");
+    size = measured.origins.size();
+  } else if (scale) {
+    size = scaledSize(example.field().size(), *scale, "samples");
+  }
+  measured.mesh = readTriangles(result, example.reading.mesh);
+  try {
+    measured.field = sampleMeshResult(*measured.mesh, example.field(), {.size = size}, progress);
+  } catch (const InputError& error) {
+    throw InputError(result.name() + ": " + error.what());
+  }
+  return measured;
+}
+
+Measures measure(const Measured& result, const Example& example, const Progress& progress) {
+  MeasureInput input;
+  if (result.origins.count() > 0) input.origins = &result.origins;
+  if (result.mesh) input.mesh = &*result.mesh;
+  return measure(example.field(), result.field, input,
+                 {.likeness = {.contoured = result.mesh.has_value()}}, progress);
+}
+
+}  // namespace exemplar

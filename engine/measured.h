@@ -1,0 +1,40 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/progress.h"
+#include "engine/example.h"
+#include "engine/result.h"
+#include "measure/figures.h"
+#include "measure/measure.h"
+#include "mesh/triangle_mesh.h"
+
+/// How alike, how new and how seamless a result is (docs/measures.md).
+namespace exemplar {
+
+/// Measures a complete result against its (first) example; `surface` is its mesh, where it was
+/// realized. Nothing for labels that stand for no field. Throws `Cancelled`.
+std::optional<Measures> measure(const Result& result, std::span<const Example> examples,
+                                const TriangleMesh* surface = nullptr,
+                                const Progress& progress = {});
+
+/// What is measured against an example: a result, as it was made or read from files.
+struct Measured {
+  DistanceField field;
+  std::optional<TriangleMesh> mesh;  ///< its triangles, where it was given as a mesh
+  Origins origins;                   ///< none: without cells
+};
+/// Reads a result to measure: a .vdb, or another example, by its own samples; a mesh sampled where
+/// a synthesis' samples were, of the example's voxels, at `scale` times its size or, where that is
+/// not given, as its origins say or as it is guessed. `origins` may be nothing. Throws
+/// `InputError`.
+Measured readMeasured(const Source& result, const std::optional<Source>& origins,
+                      const std::optional<Vec3d>& scale, const Example& example,
+                      const Progress& progress = {});
+Measures measure(const Measured& result, const Example& example, const Progress& progress = {});
+
+}  // namespace exemplar

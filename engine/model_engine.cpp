@@ -1,0 +1,101 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+// Model synthesis: from labels to labels.
+
+#include <utility>
+
+#include "core/error.h"
+#include "engine/engines.h"
+#include "engine/model_request.h"
+
+namespace exemplar {
+namespace {
+
+constexpr const char* kSideNames[] = {"left", "right", "front", "back", "bottom", "top"};
+
+Conflict conflictOf(const ModelConflict& found) {
+  Conflict conflict{found.text, found.pins, {}};
+  for (const Side side : found.sides)
+    conflict.sides.emplace_back(kSideNames[static_cast<int>(side)]);
+  return conflict;
+}
+
+Statistics statisticsOf(const ModelResult& made, const Example& example, const Vec3i& size) {
+  const ModelStatistics& s = made.statistics;
+  return {{"method", std::string(s.whole ? "whole" : "blocks")},
+          {"labels", std::int64_t{example.labels().labelCount()}},
+          {"example_cells", example.labels().size()},
+          {"result_cells", size},
+          {"frames", static_cast<std::int64_t>(made.frames.size())},
+          {"contradictions", s.contradictions},
+          {"repairs", s.repairs},
+          {"blocks", s.blocks},
+          {"blocks_kept", s.blocksKept},
+          {"exact_solver_calls", s.exact}};
+}
+
+class ModelEngine final : public Engine {
+ public:
+  std::string_view name() const override { return "model"; }
+  std::string_view meaning() const override {
+    return "model synthesis: labels in which every two neighbors are a pair that the example shows "
+           "(Merrell 2007, 2009); the default for labels and scenes of pieces";
+  }
+  Form form() const override { return Form::Labels; }
+  Vec3i extentOf(std::span<const Example> examples, const Request& request) const override {
+    const Example& example = examples.front();
+    return resultSize(request, cellsOfExample(example), example.hints.scale, "cells");
+  }
+  bool mixes() const override { return true; }
+  std::span<const Setting> settings() const override { return modelSettings().settings(); }
+  std::span<const std::string_view> honors() const override {
+    static constexpr std::string_view keys[] = {"periodic", "pin"};
+    return keys;
+  }
+
+ protected:
+  Result synthesize(std::span<const Example> examples, const Request& request,
+                    const Progress& progress) const override {
+    ModelSettings settings;
+    modelSettings().apply(request.settings, settings);
+    if (settings.frames && examples.size() < 2)
+      throw InputError("`frames`: give the frames of an example, several files");
+    if (settings.options.loop && !settings.frames)
+      throw InputError("`loop`: only what changes over time does; say how many `frames`");
+    const ModelOptions options = modelOptions(request, settings, examples.front());
+    const Adjacency adjacency = adjacencyOf(examples, adjacencyOptions(settings));
+    std::vector<LabelGrid> grids;
+    for (const Example& example : examples) grids.push_back(example.labels());
+
+    ModelResult made = synthesizeModel(grids, adjacency, options, progress);
+    Result result;
+    result.outcome = made.outcome;
+    result.statistics = statisticsOf(made, examples.front(), options.size);
+    if (made.outcome == Outcome::Impossible) {
+      result.conflict = conflictOf(made.conflict);
+      result.why = "impossible: " + made.conflict.text;
+    }
+    if (made.outcome == Outcome::Unfinished) {
+      result.why =
+          "no result within the budget, and none is proved impossible; try another `seed`, a "
+          "smaller `size`, or a larger `budget`";
+    }
+    if (made.outcome != Outcome::Complete) return result;
+    result.notes.emplace_back("method", made.statistics.whole ? "in one pass" : "in blocks");
+    result.data = std::move(made.frames.front());
+    result.laterFrames.assign(std::make_move_iterator(made.frames.begin() + 1),
+                              std::make_move_iterator(made.frames.end()));
+    result.origins = std::move(made.origins.front());
+    return result;
+  }
+};
+
+}  // namespace
+
+const Engine& modelEngine() {
+  static const ModelEngine engine;
+  return engine;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,46 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/request.h"
+#include "synth/model/synthesize.h"
+#include "voxelize/adjacency.h"
+
+/// Requests of model synthesis as they are written: by labels' numbers and names, in files.
+namespace exemplar {
+
+/// The settings of model synthesis as they are written; what names labels or files is read once the
+/// example is known.
+struct ModelSettings {
+  ModelOptions options;
+  std::vector<std::string> side, weight, weightMap, count, connect;
+  std::vector<std::string> mirroredX, mirroredY, turned, offset;
+  Axes mirror;
+  std::optional<int> frames;
+  std::string mask;
+};
+const SettingTable<ModelSettings>& modelSettings();
+
+/// "3,wall,7": numbers or names of labels; a name may stand for several. Throws `InputError` naming
+/// `what` and which labels there are.
+std::vector<Label> parseLabels(const std::string& text, const LabelGrid& grid,
+                               const std::string& what);
+
+/// Everything that the request asks of model synthesis of the example.
+ModelOptions modelOptions(const Request& request, const ModelSettings& settings,
+                          const Example& example);
+
+/// Which labels may be neighbors: as counted in the examples, or, where blocks of a field overlap,
+/// as they agree. Throws `InputError` for settings that do not go together with the latter.
+Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions& options = {});
+/// How the settings say that the examples are read.
+AdjacencyOptions adjacencyOptions(const ModelSettings& settings);
+
+/// Cells of a result that is as large as the example: the example's own, but where blocks overlap.
+Vec3i cellsOfExample(const Example& example);
+
+}  // namespace exemplar

@@ -1,0 +1,159 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "engine/output.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "engine/words.h"
+#include "mesh/gif.h"
+#include "mesh/image.h"
+#include "sdf/height_map.h"
+#include "sdf/vdb_file.h"
+#include "voxelize/label_file.h"
+
+namespace exemplar {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool endsWith(const fs::path& path, const char* ending) { return lowerExtension(path) == ending; }
+
+/// The path of one frame of a sequence: `roll.txt` becomes `roll_007.txt`.
+fs::path framePath(const fs::path& path, std::size_t frame) {
+  char number[16];
+  std::snprintf(number, sizeof number, "_%03zu", frame);
+  return path.parent_path() / (path.stem().string() + number + path.extension().string());
+}
+
+/// A flat grid as its picture, with cells of several pixels; any other one rendered.
+Image8 frameImage(const LabelGrid& grid, const Example& example, const RenderOptions& picture,
+                  const Progress& progress) {
+  if (grid.size().z != 1) return render(realizeLabels(grid, example), picture, progress);
+  const auto* image = std::get_if<ImageLabels>(&example.content);
+  const Image8 small = image ? imageFromLabels(grid, *image) : imageFromLabels(grid);
+  const int zoom = std::max(1, 256 / std::max(small.width, small.height));
+  Image8 large{small.width * zoom, small.height * zoom, small.channels, {}};
+  large.pixels.reserve(static_cast<std::size_t>(large.width) * large.height * large.channels);
+  for (int y = 0; y < large.height; ++y) {
+    for (int x = 0; x < large.width; ++x) {
+      const std::uint8_t* pixel = small.at(x / zoom, y / zoom);
+      large.pixels.insert(large.pixels.end(), pixel, pixel + small.channels);
+    }
+  }
+  return large;
+}
+
+/// A result that changes over time: an animation, or a file for each frame.
+Written writeFrames(const fs::path& path, const Result& result, const Example& example,
+                    const OutputOptions& options, const Progress& progress) {
+  std::vector<const LabelGrid*> frames{&result.labels()};
+  for (const LabelGrid& frame : result.laterFrames) frames.push_back(&frame);
+  const auto share = [&](std::size_t n) {
+    return progress.part(static_cast<double>(n) / static_cast<double>(frames.size()),
+                         static_cast<double>(n + 1) / static_cast<double>(frames.size()));
+  };
+  if (endsWith(path, ".gif")) {
+    std::vector<Image8> images;
+    for (const LabelGrid* grid : frames)
+      images.push_back(frameImage(*grid, example, options.picture, share(images.size())));
+    writeGif(path, images);
+    return {"written", path.string() + ": " + std::to_string(frames.size()) + " frames"};
+  }
+  for (std::size_t n = 0; n < frames.size(); ++n)
+    writeLabels(framePath(path, n), *frames[n], example, options, share(n));
+  return {"written",
+          framePath(path, 0).string() + " to " + framePath(path, frames.size() - 1).string()};
+}
+
+Written writeField(const fs::path& path, const Result& result, const Example& example) {
+  if (isHeightMapFile(path)) {
+    writeHeightMap(path, sdfToHeightMap(result.field()), example.heights);
+    return {"heights", path.string()};
+  }
+  writeVdb(path, result.field(), result.periodic);
+  return {"field", path.string()};
+}
+
+}  // namespace
+
+const char* outputEndings(Form form) {
+  return form == Form::Field ? ".obj .ply .stl .off .glb .vdb .png .pgm .asc"
+                             : ".txt .vox .vdb .png .obj .ply .stl .off .glb .gif";
+}
+
+void requireOutput(const fs::path& path, const std::string& endings) {
+  const std::string ending = lowerExtension(path);
+  if (ending.empty() || (" " + endings + " ").find(" " + ending + " ") == std::string::npos)
+    throw InputError(path.string() + ": cannot write this kind of file; use one of " + endings);
+  const OutputFile probe(path);
+}
+
+void requireOutputFits(const fs::path& path, Form form, const Vec3i& size, int frames) {
+  if (form == Form::Field) return;
+  if (endsWith(path, ".gif") && frames == 0) {
+    throw InputError(path.string() +
+                     ": only what changes over time becomes one; say how many "
+                     "`frames`");
+  }
+  if (endsWith(path, ".png") && size.z != 1) {
+    throw InputError(path.string() + ": a picture has one layer, and the result " +
+                     std::to_string(size.z) + "; write a .txt, .vox, .vdb or a mesh");
+  }
+}
+
+bool needsSurface(const fs::path& path, const Result& result, const OutputOptions& options) {
+  return isMeshFile(path) && !options.instances && result.laterFrames.empty();
+}
+
+Written writeResult(const fs::path& path, const Result& result, std::span<const Example> examples,
+                    const Surface* surface, const OutputOptions& options,
+                    const Progress& progress) {
+  const Example& example = examples.front();
+  progress.report("writing " + path.string(), 0);
+  if (surface && needsSurface(path, result, options)) {
+    writeMesh(path, surface->mesh, options.mesh);
+    return {result.form() == Form::Field ? "mesh" : "written",
+            path.string() + ": " + readableHealth(surface->health)};
+  }
+  if (result.form() == Form::Field) return writeField(path, result, example);
+  if (!result.laterFrames.empty()) return writeFrames(path, result, example, options, progress);
+  return writeLabels(path, result.labels(), example, options, progress);
+}
+
+Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& example,
+                    const OutputOptions& options, const Progress& progress) {
+  const auto* pieces = std::get_if<ModelPieces>(&example.content);
+  if (options.instances) {
+    if (!pieces || !endsWith(path, ".glb"))
+      throw InputError("`instances`: only a .glb of model pieces (of a mesh) has instances");
+    const std::size_t placed = writePieceInstances(path, grid, *pieces);
+    return {"written",
+            path.string() + ": " + withThousands(static_cast<long long>(placed)) + " instances"};
+  }
+  if (isMeshFile(path)) {
+    const TriangleMesh mesh = realizeLabels(grid, example, progress);
+    writeMesh(path, mesh, options.mesh);
+    return {"written", path.string() + ": " + readableHealth(meshHealth(mesh))};
+  }
+  if (const auto* labeled = std::get_if<LabeledField>(&example.content);
+      labeled && endsWith(path, ".vdb")) {
+    const PlacedBlocks placed = placeBlocks(labeled->field, labeled->blocks, grid.cells);
+    writeVdb(path, placed.field);
+    return {"written",
+            path.string() + ": distances, " + readableSize(placed.field.size(), "samples")};
+  }
+  if (const auto* image = std::get_if<ImageLabels>(&example.content);
+      image && endsWith(path, ".png")) {
+    writePng(path, imageFromLabels(grid, *image));
+  } else {
+    writeLabels(path, grid);
+  }
+  return {"written", path.string() + ": " + readableSize(grid.size(), "cells")};
+}
+
+}  // namespace exemplar

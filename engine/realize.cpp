@@ -1,0 +1,154 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "engine/realize.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "engine/words.h"
+#include "mesh/scene.h"
+#include "reconstruct/copy_triangles.h"
+#include "reconstruct/field_to_mesh.h"
+#include "reconstruct/reconstruct.h"
+#include "reconstruct/transfer.h"
+#include "voxelize/label_file.h"
+#include "voxelize/label_mesh.h"
+
+namespace exemplar {
+namespace {
+
+ReconstructExample viewOf(const DistanceField& field, const Example& example) {
+  return {field, example.mesh ? &*example.mesh : nullptr};
+}
+
+/// Origins of a field that is its own example: every sample comes from itself.
+Origins identityOrigins(const Vec3i& size) {
+  Origins origins(size);
+  for (std::size_t n = 0; n < origins.count(); ++n) origins.values()[n] = Origin(origins.ijk(n));
+  return origins;
+}
+
+Surface copied(const Result& result, std::span<const Example> examples, const Progress& progress) {
+  const Example& example = examples.front();
+  if (!example.mesh || examples.size() > 1) {
+    throw InputError("`surface` copy: " +
+                     std::string(example.mesh ? "there are several examples"
+                                              : "the example has no triangles to copy") +
+                     "; use contour");
+  }
+  CopiedTriangles made =
+      copyTriangles(result.field(), result.origins, *example.mesh, example.field(), {}, progress);
+  return {std::move(made.mesh), made.health};
+}
+
+Surface contoured(const Result& result, std::span<const Example> examples,
+                  const Progress& progress) {
+  std::vector<ReconstructExample> views;
+  for (const Example& example : examples) views.push_back(viewOf(example.field(), example));
+  ReconstructOptions options;
+  options.contour.wraps = result.periodic;
+  Reconstruction made =
+      reconstructSurface(result.field(), result.origins, views, options, progress);
+  return {std::move(made.mesh), made.health};
+}
+
+TriangleMesh boxesOf(const LabelGrid& grid, bool closedLabels, const std::string& what) {
+  TriangleMesh mesh = labelMesh(grid, {.closedLabels = closedLabels});
+  if (mesh.triangles.empty()) throw InputError(what + ": all of its cells are empty");
+  return mesh;
+}
+
+}  // namespace
+
+const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
+  using O = SurfaceOptions;
+  static const SettingTable<O> field{
+      choiceRow<O, SurfaceKind>(
+          "surface", &O::surface,
+          "contour the new field (closed, manifold), or copy the example's triangles",
+          {{"contour", SurfaceKind::Contour}, {"copy", SurfaceKind::Copy}}),
+      settingRow<O>(
+          "detail", &O::detail,
+          "re-make the result at this many times the resolution, with the example's finer "
+          "detail",
+          {1, 16})};
+  static const SettingTable<O> labels{settingRow<O>(
+      "instances", &O::instances, "a .glb of model pieces: write each piece once and place it")};
+  return form == Form::Field ? field : labels;
+}
+
+Surface realize(const Result& result, std::span<const Example> examples,
+                const SurfaceOptions& options, const Progress& progress) {
+  if (result.form() == Form::Field) {
+    return options.surface == SurfaceKind::Copy ? copied(result, examples, progress)
+                                                : contoured(result, examples, progress);
+  }
+  Surface surface;
+  surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));
+  progress.report("checking the surface", 0.8);
+  surface.health = meshHealth(surface.mesh);
+  return surface;
+}
+
+TriangleMesh realizeLabels(const LabelGrid& grid, const Example& example,
+                           const Progress& progress) {
+  progress.report("making the surface", 0);
+  if (const auto* pieces = std::get_if<ModelPieces>(&example.content))
+    return assemblePieces(grid, *pieces);
+  if (const auto* labeled = std::get_if<LabeledField>(&example.content)) {
+    const PlacedBlocks placed = placeBlocks(labeled->field, labeled->blocks, grid.cells);
+    return reconstructSurface(placed.field, placed.origins, viewOf(labeled->field, example), {},
+                              progress)
+        .mesh;
+  }
+  return boxesOf(grid, true, "the result has no geometry");
+}
+
+TriangleMesh contourOf(const Example& example, const Progress& progress) {
+  return fieldToMesh(example.field(), {.wraps = example.continues}, progress);
+}
+
+TriangleMesh pictured(const Example& example, const Progress& progress) {
+  if (example.form() == Form::Labels) {
+    if (const auto* labeled = std::get_if<LabeledField>(&example.content)) {
+      Example field = example;
+      field.data = labeled->field;
+      return pictured(field, progress);
+    }
+    return example.mesh ? *example.mesh : boxesOf(example.labels(), false, example.name());
+  }
+  if (example.mesh && example.kind == SourceKind::Mesh) return *example.mesh;
+  const DistanceField& field = example.field();
+  TriangleMesh mesh = fieldToMesh(field, {}, progress.part(0, 0.6));
+  if (example.mesh) {
+    transferAppearance(mesh, field, identityOrigins(field.size()), *example.mesh, field, {},
+                       progress.part(0.6, 1));
+  }
+  return mesh;
+}
+
+TriangleMesh pictured(const Source& source, const ReadOptions& options, const Progress& progress) {
+  const SourceKind kind = sourceKind(source);
+  if (kind == SourceKind::Mesh) return readTriangles(source, options.mesh);
+  if (kind == SourceKind::Labels) return boxesOf(readLabelGrid(source), false, source.name());
+  // A scene of model pieces is shown as it is, not as what a distance field leaves of it.
+  if (kind == SourceKind::Pieces) return readScene(findScene(source.name())).mesh;
+  return pictured(readExample(source, options, progress.part(0, 0.5)), progress.part(0.5, 1));
+}
+
+std::string readableHealth(const MeshHealth& health) {
+  std::string text = withThousands(health.triangles) + " triangles, ";
+  text += health.closed() ? "closed" : "open (" + withThousands(health.boundaryEdges) + " edges)";
+  text += health.manifold()
+              ? ", manifold"
+              : ", not manifold (" +
+                    withThousands(health.nonManifoldEdges + health.nonManifoldVertices) +
+                    " places)";
+  text += health.oriented() ? ", consistently oriented"
+                            : ", not consistently oriented (" +
+                                  withThousands(health.misorientedEdges) + " edges)";
+  return text;
+}
+
+}  // namespace exemplar

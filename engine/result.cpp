@@ -1,0 +1,64 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "engine/result.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "engine/words.h"
+#include "sdf/vdb_file.h"
+#include "synth/geometry/detail.h"
+
+namespace exemplar {
+
+std::string readableExtent(const Result& result) {
+  return result.form() == Form::Field ? readableSize(result.field().size(), "samples")
+                                      : readableSize(result.labels().size(), "cells");
+}
+
+std::optional<SampledResult> sampled(const Result& result, const Example& example) {
+  if (result.form() == Form::Field) return SampledResult{result.field(), result.origins};
+  const auto* labeled = std::get_if<LabeledField>(&example.content);
+  if (!labeled) return std::nullopt;
+  PlacedBlocks placed = placeBlocks(labeled->field, labeled->blocks, result.labels().cells);
+  return SampledResult{std::move(placed.field), std::move(placed.origins)};
+}
+
+Result withDetail(const Result& result, std::span<const Example> finer, int factor,
+                  const Progress& progress) {
+  SynthesisResult fine = addDetail(fieldsOf(finer), result.origins, factor, progress);
+  Result detailed = result;
+  detailed.data = std::move(fine.field);
+  detailed.origins = std::move(fine.origins);
+  detailed.statistics.emplace_back("detail", std::int64_t{factor});
+  return detailed;
+}
+
+Result readResult(const Source& field, const Source& origins, std::span<const Example> examples) {
+  Result result;
+  DistanceField values = readDistances(field, &result.periodic);
+  result.origins = readOriginsVdb(origins.path());
+  if (result.origins.size() != values.size()) {
+    throw InputError(origins.name() + ": origins of " +
+                     readableSize(result.origins.size(), "samples") + " for a volume of " +
+                     readableSize(values.size(), "samples"));
+  }
+  const double voxel = examples[0].field().voxelSize;
+  if (std::abs(voxel / values.voxelSize - 1) > 1e-3) {
+    throw InputError(examples[0].name() + ": sampled with voxels of " + numberText(voxel) + ", " +
+                     field.name() + " has " + numberText(values.voxelSize) +
+                     "; give the `resolution` and `padding` of the synthesis");
+  }
+  for (const Origin& origin : result.origins.values()) {
+    if (origin.example >= examples.size() ||
+        !examples[origin.example].field().values.contains(origin.cell())) {
+      throw InputError(origins.name() + ": names samples that " + examples[0].name() +
+                       " does not have; give the examples and settings of the synthesis");
+    }
+  }
+  result.data = std::move(values);
+  return result;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,88 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "engine/source.h"
+
+#include "core/error.h"
+#include "core/file.h"
+#include "mesh/mesh_file.h"
+#include "mesh/scene.h"
+#include "sdf/vdb_file.h"
+#include "voxelize/label_file.h"
+
+namespace exemplar {
+namespace {
+
+/// A source's content as one type, or what it should have been.
+template <class T>
+const T& held(const Source& source, const char* what) {
+  if (const T* content = source.inMemory<T>()) return *content;
+  throw InputError(source.name() + ": expected " + what);
+}
+
+bool isFile(const Source& source) {
+  return !source.inMemory<TriangleMesh>() && !source.inMemory<DistanceField>() &&
+         !source.inMemory<LabelGrid>() && !source.inMemory<HeightMap>();
+}
+
+/// Whether a .vdb holds labels; where it is neither, reading it as distances says what is wrong.
+bool holdsLabels(const std::filesystem::path& path) {
+  try {
+    readLabelsVdb(path);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+SourceKind sourceKind(const Source& source) {
+  if (source.inMemory<TriangleMesh>()) return SourceKind::Mesh;
+  if (source.inMemory<DistanceField>()) return SourceKind::Volume;
+  if (source.inMemory<LabelGrid>()) return SourceKind::Labels;
+  if (source.inMemory<HeightMap>()) return SourceKind::HeightMap;
+  const std::filesystem::path& path = source.path();
+  const std::string ending = lowerExtension(path);
+  if (isMeshFile(path)) return SourceKind::Mesh;
+  if (isHeightMapFile(path)) return SourceKind::HeightMap;
+  if (isLabelFile(path)) return SourceKind::Labels;
+  if (ending == ".jpg" || ending == ".jpeg") return SourceKind::Picture;
+  if (ending == ".toml") return isPieceScene(path) ? SourceKind::Pieces : SourceKind::Scene;
+  if (ending == ".vdb") return holdsLabels(path) ? SourceKind::Labels : SourceKind::Volume;
+  throw InputError(source.name() + ": not a kind of example; use " + kExampleEndings);
+}
+
+TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options) {
+  if (!isFile(source)) return held<TriangleMesh>(source, "triangles");
+  if (const std::string* bytes = source.inMemory<std::string>())
+    return readMesh(*bytes, source.name(), options);
+  return readMesh(source.path(), options);
+}
+
+DistanceField readDistances(const Source& source, Axes* wraps) {
+  if (!isFile(source)) return held<DistanceField>(source, "distances");
+  return readVdb(source.path(), wraps);
+}
+
+LabelGrid readLabelGrid(const Source& source) {
+  if (!isFile(source)) return held<LabelGrid>(source, "labels");
+  const std::string ending = lowerExtension(source.path());
+  if (const std::string* bytes = source.inMemory<std::string>()) {
+    return ending == ".vox" ? parseVox(*bytes, source.name())
+                            : parseLabelText(*bytes, source.name());
+  }
+  return readLabels(source.path());
+}
+
+HeightMap readHeights(const Source& source, const HeightMapFileOptions& options) {
+  if (!isFile(source)) return held<HeightMap>(source, "heights");
+  return readHeightMap(source.path(), options);
+}
+
+std::string readBytes(const Source& source) {
+  if (const std::string* bytes = source.inMemory<std::string>()) return *bytes;
+  return readFile(source.path());
+}
+
+}  // namespace exemplar

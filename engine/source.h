@@ -1,0 +1,94 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "mesh/mesh_file.h"
+#include "mesh/triangle_mesh.h"
+#include "core/axes.h"
+#include "sdf/distance_field.h"
+#include "sdf/height_map.h"
+#include "voxelize/label_grid.h"
+
+namespace exemplar {
+
+/// Where an example, a solid or a guide comes from: a file, the bytes of one, or what is in memory.
+/// Copies share what they hold.
+class Source {
+ public:
+  using Content =
+      std::variant<std::monostate, std::string, TriangleMesh, DistanceField, LabelGrid, HeightMap>;
+
+  Source() = default;
+  /// A file, or the name of a bundled scene ("scenes/chainmail.toml").
+  Source(std::filesystem::path path) : path_(std::move(path)) {}
+  Source(const char* path) : path_(path) {}
+  Source(const std::string& path) : path_(path) {}
+  /// What a file of this name would hold; the ending says the format.
+  static Source ofBytes(std::string bytes, std::filesystem::path name) {
+    return Source(std::move(name), Content(std::move(bytes)));
+  }
+  /// Triangles, distances, labels or heights; `name` is for messages.
+  static Source of(TriangleMesh mesh, std::filesystem::path name = "mesh") {
+    return Source(std::move(name), Content(std::move(mesh)));
+  }
+  static Source of(DistanceField field, std::filesystem::path name = "field") {
+    return Source(std::move(name), Content(std::move(field)));
+  }
+  static Source of(LabelGrid grid, std::filesystem::path name = "labels") {
+    return Source(std::move(name), Content(std::move(grid)));
+  }
+  static Source of(HeightMap map, std::filesystem::path name = "heights") {
+    return Source(std::move(name), Content(std::move(map)));
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string name() const { return path_.string(); }
+  /// What is in memory, or null where it is a file or of another type.
+  template <class T>
+  const T* inMemory() const {
+    return content_ ? std::get_if<T>(content_.get()) : nullptr;
+  }
+
+ private:
+  Source(std::filesystem::path path, Content content)
+      : path_(std::move(path)), content_(std::make_shared<const Content>(std::move(content))) {}
+
+  std::filesystem::path path_;
+  std::shared_ptr<const Content> content_;
+};
+
+/// What a source holds.
+enum class SourceKind {
+  Mesh,       ///< .obj .ply .stl .off .glb
+  Scene,      ///< .toml: a process that makes a mesh
+  Pieces,     ///< .toml: a scene made of model pieces on a grid
+  Volume,     ///< .vdb of signed distances
+  HeightMap,  ///< .png .pgm .asc
+  Labels,     ///< .txt .vox, .vdb of labels
+  Picture,    ///< .jpg; a .png, too, where labels are asked for
+};
+
+/// What the source holds, by its ending; scenes and .vdb files are looked into. Throws `InputError`
+/// where it is no kind of example, or cannot be read.
+SourceKind sourceKind(const Source& source);
+
+/// The endings of examples, for help and errors.
+inline constexpr const char* kExampleEndings =
+    ".obj .ply .stl .off .glb .vdb .png .pgm .asc .txt .vox .jpg or .toml";
+
+/// Reads the triangles, distances, labels or heights themselves. `sceneSeed` and the like are in
+/// `readExample`.
+TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options);
+DistanceField readDistances(const Source& source, Axes* wraps = nullptr);
+LabelGrid readLabelGrid(const Source& source);
+HeightMap readHeights(const Source& source, const HeightMapFileOptions& options);
+/// The bytes of a file.
+std::string readBytes(const Source& source);
+
+}  // namespace exemplar
