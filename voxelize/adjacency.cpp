@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "core/cells.h"
 #include "core/error.h"
 
 namespace exemplar {
@@ -18,6 +19,9 @@ std::string words(const CellOffset& o) {
   if (o.t != 0) text += ", " + std::to_string(o.t);
   return text + ")";
 }
+
+/// Up to so many labels their pairs are counted in a table, which then takes 8 MB at most.
+constexpr std::size_t kLabelsInTable = 1024;
 
 CellOffset opposite(const CellOffset& o) { return {-o.x, -o.y, -o.z, -o.t}; }
 
@@ -45,11 +49,14 @@ int wrapped(int i, int n, bool periodic) {
   return periodic ? ((i % n) + n) % n : -1;
 }
 
-/// Appends each pair (as first << 16 | second) at `offset` from cells of `a` to cells of `b`.
-void collect(const LabelGrid& a, const LabelGrid& b, const CellOffset& offset,
-             const AdjacencyOptions& options, std::vector<std::uint32_t>& pairs) {
+/// Calls `visit(first, second)` for each pair of labels at `offset` from cells of `a` to cells of
+/// `b`.
+template <class Visit>
+void forEachPair(const LabelGrid& a, const LabelGrid& b, const CellOffset& offset,
+                 const AdjacencyOptions& options, const Progress& progress, const Visit& visit) {
   const Vec3i n = a.size();
   for (int k = 0; k < n.z; ++k) {
+    progress.check();
     const int k2 = wrapped(k + offset.z, n.z, options.periodic[2]);
     if (k2 < 0) continue;
     for (int j = 0; j < n.y; ++j) {
@@ -58,22 +65,38 @@ void collect(const LabelGrid& a, const LabelGrid& b, const CellOffset& offset,
       for (int i = 0; i < n.x; ++i) {
         const int i2 = wrapped(i + offset.x, n.x, options.periodic[0]);
         if (i2 < 0) continue;
-        pairs.push_back(std::uint32_t{a.cells(i, j, k)} << 16 | b.cells(i2, j2, k2));
+        visit(a.cells(i, j, k), b.cells(i2, j2, k2));
       }
     }
   }
 }
 
 PairRule countPairs(std::span<const LabelGrid> examples, const CellOffset& offset,
-                    const AdjacencyOptions& options) {
-  std::vector<std::uint32_t> found;
+                    const AdjacencyOptions& options, const Progress& progress) {
   const int count = static_cast<int>(examples.size());
-  for (int f = 0; f < count; ++f) {
-    const int other = options.frames ? f + offset.t : f;
-    if (other >= 0 && other < count) collect(examples[f], examples[other], offset, options, found);
-  }
-  std::sort(found.begin(), found.end());
+  const auto visitAll = [&](const auto& visit) {
+    for (int f = 0; f < count; ++f) {
+      const int other = options.frames ? f + offset.t : f;
+      if (other < 0 || other >= count) continue;
+      forEachPair(examples[f], examples[other], offset, options, progress, visit);
+    }
+  };
   PairRule rule{offset, {}};
+  const std::size_t labels = examples[0].labels.size();
+  if (labels <= kLabelsInTable) {
+    std::vector<std::int64_t> table(labels * labels, 0);
+    visitAll([&](Label a, Label b) { ++table[a * labels + b]; });
+    for (std::size_t pair = 0; pair < table.size(); ++pair) {
+      if (table[pair] == 0) continue;
+      rule.pairs.push_back(
+          {static_cast<Label>(pair / labels), static_cast<Label>(pair % labels), table[pair]});
+    }
+    return rule;
+  }
+  std::vector<std::uint32_t> found;
+  visitAll([&](Label a, Label b) { found.push_back(std::uint32_t{a} << 16 | b); });
+  progress.check();
+  std::sort(found.begin(), found.end());
   for (std::size_t i = 0; i < found.size();) {
     std::size_t end = i;
     while (end < found.size() && found[end] == found[i]) ++end;
@@ -114,33 +137,41 @@ std::int64_t PairRule::count(Label first, Label second) const {
   return at != pairs.end() && at->first == first && at->second == second ? at->count : 0;
 }
 
-Adjacency findAdjacency(std::span<const LabelGrid> examples, const AdjacencyOptions& options) {
+Adjacency findAdjacency(std::span<const LabelGrid> examples, const AdjacencyOptions& options,
+                        const Progress& progress) {
   checkExamples(examples, options);
   Adjacency found;
   found.labelCount = examples[0].labelCount();
-  for (const CellOffset& offset : offsetsToCount(options)) {
-    found.rules.push_back(countPairs(examples, offset, options));
+  const std::vector<CellOffset> offsets = offsetsToCount(options);
+  const double steps = static_cast<double>(offsets.size()) + 1;
+  for (const CellOffset& offset : offsets) {
+    progress.report("counting pairs of labels", static_cast<double>(found.rules.size()) / steps);
+    found.rules.push_back(countPairs(examples, offset, options, progress));
   }
+  progress.report("counting labels", static_cast<double>(offsets.size()) / steps);
 
   found.frequency.assign(found.labelCount, 0);
   std::array<std::set<Label>, 6> sides;
   for (const LabelGrid& e : examples) {
-    for (std::size_t i = 0; i < e.cells.count(); ++i) {
-      const Label label = e.cells.data()[i];
-      ++found.frequency[label];
-      const Vec3i p = e.cells.ijk(i);
-      for (int axis = 0; axis < 3; ++axis) {
-        if (p[axis] == 0) sides[2 * axis].insert(label);
-        if (p[axis] == e.size()[axis] - 1) sides[2 * axis + 1].insert(label);
+    for (const Label label : e.cells.values()) ++found.frequency[label];
+    for (int s = 0; s < 6; ++s) {
+      const int axis = s / 2;
+      CellBox layer = CellBox::of(e.size());
+      if (s % 2) {
+        layer.begin[axis] = layer.end[axis] - 1;
+      } else {
+        layer.end[axis] = 1;
       }
+      forEachCell(layer, [&](const Vec3i& p) { sides[s].insert(e.cells[p]); });
     }
   }
   for (int s = 0; s < 6; ++s) found.sides[s].assign(sides[s].begin(), sides[s].end());
   return found;
 }
 
-Adjacency findAdjacency(const LabelGrid& example, const AdjacencyOptions& options) {
-  return findAdjacency(std::span(&example, 1), options);
+Adjacency findAdjacency(const LabelGrid& example, const AdjacencyOptions& options,
+                        const Progress& progress) {
+  return findAdjacency(std::span(&example, 1), options, progress);
 }
 
 }  // namespace exemplar

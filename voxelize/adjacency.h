@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "core/axes.h"
+#include "core/progress.h"
 #include "voxelize/label_grid.h"
 
 namespace exemplar {
@@ -55,8 +57,7 @@ struct Adjacency {
 };
 
 struct AdjacencyOptions {
-  /// The example goes on at its far side where it began at its near one: along x, y, z.
-  std::array<bool, 3> periodic{false, false, false};
+  Axes periodic;  ///< the example's opposite sides meet: its last cell is followed by its first
   /// Further pairs to keep: diagonals, cells two apart, the third axis {1, -1, 0} of a hexagonal
   /// grid (thesis, section 3.5.1). Not the zero offset, and none twice or against another.
   std::vector<CellOffset> offsets;
@@ -68,7 +69,9 @@ struct AdjacencyOptions {
 /// Counts the ordered pairs of labels in the examples, which share one numbering of labels:
 /// equation 3.2, with frequencies. O(cells x log cells) for each offset. Throws `InputError` where
 /// the examples' label counts differ, frames differ in size, or an example is empty.
-Adjacency findAdjacency(std::span<const LabelGrid> examples, const AdjacencyOptions& options = {});
-Adjacency findAdjacency(const LabelGrid& example, const AdjacencyOptions& options = {});
+Adjacency findAdjacency(std::span<const LabelGrid> examples, const AdjacencyOptions& options = {},
+                        const Progress& progress = {});
+Adjacency findAdjacency(const LabelGrid& example, const AdjacencyOptions& options = {},
+                        const Progress& progress = {});
 
 }  // namespace exemplar

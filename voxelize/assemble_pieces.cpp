@@ -73,8 +73,8 @@ double countTriangles(const LabelGrid& grid, const ModelPieces& pieces) {
 
 class Assembler {
  public:
-  Assembler(const LabelGrid& grid, const ModelPieces& pieces)
-      : grid_(grid), pieces_(pieces), joined_(2.5 * pieces.tolerance) {}
+  Assembler(const LabelGrid& grid, const ModelPieces& pieces, const Progress& progress)
+      : grid_(grid), pieces_(pieces), progress_(progress), joined_(2.5 * pieces.tolerance) {}
 
   TriangleMesh assemble(std::vector<std::uint32_t>* cellOf) {
     requireMemory(200 * countTriangles(grid_, pieces_), "the mesh of the result",
@@ -86,6 +86,13 @@ class Assembler {
   }
 
  private:
+  static constexpr std::size_t kAtOnce = 1024;  // cells or triangles between reports
+
+  void reportShare(double from, double to, std::size_t done, std::size_t all) const {
+    progress_.report("putting pieces together",
+                     from + (to - from) * static_cast<double>(done) / static_cast<double>(all));
+  }
+
   /// The pieces' triangles; points on the sides of cells become one with those already there.
   void copy() {
     const TriangleMesh& stock = pieces_.mesh;
@@ -94,7 +101,9 @@ class Assembler {
     const double box = 4 * joined_;
     PointIndex rims;
     std::vector<std::uint32_t> vertexOf(stock.positions.size());
-    for (std::size_t c = 0; c < grid_.cells.count(); ++c) {
+    const std::size_t cells = grid_.cells.count();
+    for (std::size_t c = 0; c < cells; ++c) {
+      if (c % kAtOnce == 0) reportShare(0, 0.4, c, cells);
       const Label label = grid_.cells.values()[c];
       const Vec3d corner = cast<double>(grid_.cells.ijk(c));
       const std::uint32_t begin = pieces_.first[label], end = pieces_.first[label + 1];
@@ -160,7 +169,10 @@ class Assembler {
   void divideEdges() {
     std::unordered_map<std::uint64_t, int> runs;
     runs.reserve(3 * mesh_.triangles.size());
-    for (const auto& t : mesh_.triangles) {
+    const std::size_t count = mesh_.triangles.size();
+    for (std::size_t n = 0; n < count; ++n) {
+      if (n % kAtOnce == 0) reportShare(0.4, 0.7, n, count);
+      const auto& t = mesh_.triangles[n];
       for (int k = 0; k < 3; ++k) ++runs[edgeKey(t[k], t[(k + 1) % 3])];
     }
     const auto isOpen = [&](std::uint32_t a, std::uint32_t b) {
@@ -171,7 +183,8 @@ class Assembler {
     PointIndex ends;
     std::vector<bool> known(mesh_.positions.size(), false);
     std::vector<std::uint32_t> divided;  // triangles with open edges
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < count; ++t) {
+      if (t % kAtOnce == 0) reportShare(0.7, 0.9, t, count);
       const auto& triangle = mesh_.triangles[t];
       bool any = false;
       for (int k = 0; k < 3; ++k) {
@@ -185,7 +198,9 @@ class Assembler {
       }
       if (any) divided.push_back(static_cast<std::uint32_t>(t));
     }
-    for (const std::uint32_t t : divided) {
+    for (std::size_t n = 0; n < divided.size(); ++n) {
+      if (n % kAtOnce == 0) reportShare(0.9, 1, n, divided.size());
+      const std::uint32_t t = divided[n];
       std::array<std::vector<std::pair<double, std::uint32_t>>, 3> points;
       bool any = false;
       for (int k = 0; k < 3; ++k) {
@@ -249,6 +264,7 @@ class Assembler {
 
   const LabelGrid& grid_;
   const ModelPieces& pieces_;
+  const Progress& progress_;
   double joined_;  // points nearer than this are one, in cells
   TriangleMesh mesh_;
   std::vector<Vec3d> inCells_;  // of each vertex
@@ -258,23 +274,28 @@ class Assembler {
 }  // namespace
 
 std::size_t writePieceInstances(const std::filesystem::path& path, const LabelGrid& grid,
-                                const ModelPieces& pieces) {
+                                const ModelPieces& pieces, const Progress& progress) {
   countTriangles(grid, pieces);
   MeshInstances instances;
   instances.first = pieces.first;
   for (std::size_t c = 0; c < grid.cells.count(); ++c) {
+    if (c % 65536 == 0) {
+      progress.report("placing pieces",
+                      0.5 * static_cast<double>(c) / static_cast<double>(grid.cells.count()));
+    }
     const Label label = grid.cells.values()[c];
     if (pieces.first[label] == pieces.first[label + 1]) continue;
     const Vec3d corner = grid.origin + scaled(cast<double>(grid.cells.ijk(c)), grid.cellSize);
     instances.placements.push_back({label, corner});
   }
+  progress.report("writing pieces", 0.5);
   writeFile(path, formatGlb(pieces.mesh, instances, /*yUp=*/true));
   return instances.placements.size();
 }
 
 TriangleMesh assemblePieces(const LabelGrid& grid, const ModelPieces& pieces,
-                            std::vector<std::uint32_t>* cellOf) {
-  return Assembler(grid, pieces).assemble(cellOf);
+                            std::vector<std::uint32_t>* cellOf, const Progress& progress) {
+  return Assembler(grid, pieces, progress).assemble(cellOf);
 }
 
 }  // namespace exemplar

@@ -27,14 +27,21 @@ bool comesBefore(const Vec3d& a, const Vec3d& b) {
 class Cutter {
  public:
   Cutter(const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& cellSize, const Vec3i& size,
-         double tolerance)
-      : mesh_(mesh), origin_(origin), cellSize_(cellSize), size_(size), tolerance_(tolerance) {
+         double tolerance, const Progress& progress)
+      : mesh_(mesh),
+        origin_(origin),
+        cellSize_(cellSize),
+        size_(size),
+        tolerance_(tolerance),
+        progress_(progress) {
     cut_.size = size;
   }
 
   CellCut cut() {
     requireParts();
+    const double triangles = static_cast<double>(mesh_.triangles.size());
     for (triangle_ = 0; triangle_ < mesh_.triangles.size(); ++triangle_) {
+      if (triangle_ % 1024 == 0) progress_.report(kStage, 0.8 * triangle_ / triangles);
       Polygon polygon(3);
       for (int c = 0; c < 3; ++c) {
         const Vec3d p = mesh_.positions[mesh_.triangles[triangle_][c]] - origin_;
@@ -46,11 +53,14 @@ class Cutter {
       normal_ = cross(polygon[1].p - polygon[0].p, polygon[2].p - polygon[0].p);
       if (length(normal_) > 0) split(std::move(polygon), 0, {});
     }
+    progress_.report(kStage, 0.8);
     sortByCell();
     return std::move(cut_);
   }
 
  private:
+  static constexpr const char* kStage = "cutting triangles along cells";
+
   /// A bound on the parts from the triangles' boxes, so that a tiny cell is refused and not tried.
   void requireParts() const {
     double parts = 0;
@@ -87,6 +97,7 @@ class Cutter {
       low = 0;
     }
     for (double layer = std::floor(low); layer < std::min(high, end); ++layer) {
+      if (axis == 0) progress_.check();
       cell[axis] = static_cast<int>(layer);
       if (layer + 1 >= high) {
         if (polygon.size() >= 3) split(std::move(polygon), axis + 1, cell);
@@ -169,6 +180,7 @@ class Cutter {
   Vec3d origin_, cellSize_;
   Vec3i size_;
   double tolerance_;
+  const Progress& progress_;
   std::size_t triangle_ = 0;
   Vec3d normal_;
   CellCut cut_;
@@ -178,8 +190,8 @@ class Cutter {
 }  // namespace
 
 CellCut cutAlongCells(const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& cellSize,
-                      const Vec3i& size, double tolerance) {
-  return Cutter(mesh, origin, cellSize, size, tolerance).cut();
+                      const Vec3i& size, double tolerance, const Progress& progress) {
+  return Cutter(mesh, origin, cellSize, size, tolerance, progress).cut();
 }
 
 Vec3d areaNormal(const CellCut& cut, const CutPolygon& polygon) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
@@ -32,13 +33,17 @@ struct CellCut {
       first;  ///< the first polygon of each cell, and their number at the end
 };
 
+/// Points nearer to a plane between cells than this are moved onto it, in cells.
+inline constexpr double kCutTolerance = 1e-6;
+
 /// Cuts a mesh along a grid of `size` cells of `cellSize` from `origin`; what lies outside the grid
 /// is left out, but for faces in its sides. Points nearer than `tolerance` cells to a plane between
 /// cells are moved onto it. Triangles that share an edge share the points along it, to the bit.
 /// O(parts); the same at any number of threads. Throws `InputError` where the parts would not fit
-/// in memory.
+/// in memory, and `Cancelled`.
 CellCut cutAlongCells(const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& cellSize,
-                      const Vec3i& size, double tolerance = 1e-6);
+                      const Vec3i& size, double tolerance = kCutTolerance,
+                      const Progress& progress = {});
 
 /// Twice the area of a cut polygon times its unit normal, in cells.
 Vec3d areaNormal(const CellCut& cut, const CutPolygon& polygon);

@@ -60,10 +60,12 @@ Array3D<float> truncated(const DistanceField& field, double truncation) {
 }
 
 // Of the samples next to the surface the share that is the same, within `tolerance`, a step later.
-double sameAfter(const Array3D<float>& values, const Vec3i& step, double tolerance) {
+double sameAfter(const Array3D<float>& values, const Vec3i& step, double tolerance,
+                 const Progress& progress) {
   const Vec3i size = values.size() - step;
   std::int64_t near = 0, same = 0;
-  for (int k = 0; k < size.z; ++k)
+  for (int k = 0; k < size.z; ++k) {
+    progress.check();
     for (int j = 0; j < size.y; ++j)
       for (int i = 0; i < size.x; ++i) {
         const float a = values(i, j, k), b = values(i + step.x, j + step.y, k + step.z);
@@ -71,6 +73,7 @@ double sameAfter(const Array3D<float>& values, const Vec3i& step, double toleran
         ++near;
         same += std::abs(a - b) <= tolerance;
       }
+  }
   return near == 0 ? 0 : static_cast<double>(same) / static_cast<double>(near);
 }
 
@@ -113,12 +116,13 @@ struct Labelled {
 
 // Nothing where there are more than `most` labels.
 std::optional<Labelled> label(const Array3D<float>& values, const Lattice& lattice,
-                              double tolerance, int most) {
+                              double tolerance, int most, const Progress& progress) {
   Labelled result;
   result.cells = lattice.cells(values.size());
   const Array3D<std::uint8_t> cells(result.cells);
   result.label.resize(cells.count());
   for (std::size_t c = 0; c < cells.count(); ++c) {
+    if (c % 64 == 0) progress.check();
     const Vec3i cell = cells.ijk(c);
     std::size_t l = 0;
     while (l < result.first.size() &&
@@ -139,8 +143,9 @@ std::optional<Labelled> label(const Array3D<float>& values, const Lattice& latti
                    " different blocks; use larger ones, a larger tolerance or a smaller example");
 }
 
-Labelled labelOrThrow(const Array3D<float>& values, const Lattice& lattice, double tolerance) {
-  std::optional<Labelled> labelled = label(values, lattice, tolerance, kMostBlocks);
+Labelled labelOrThrow(const Array3D<float>& values, const Lattice& lattice, double tolerance,
+                      const Progress& progress) {
+  std::optional<Labelled> labelled = label(values, lattice, tolerance, kMostBlocks, progress);
   if (!labelled) refuseLabels(kMostBlocks);
   return std::move(*labelled);
 }
@@ -149,7 +154,7 @@ Labelled labelOrThrow(const Array3D<float>& values, const Lattice& lattice, doub
 Vec3i findPhase(const Array3D<float>& values, const Vec3i& block, double tolerance,
                 const Progress& progress) {
   const auto repetition = [&](const Vec3i& phase) {
-    return labelOrThrow(values, {block, block, phase}, tolerance).repetition();
+    return labelOrThrow(values, {block, block, phase}, tolerance, progress).repetition();
   };
   Vec3i best{};
   double highest = repetition(best);
@@ -161,13 +166,11 @@ Vec3i findPhase(const Array3D<float>& values, const Vec3i& block, double toleran
       std::vector<double> found(static_cast<std::size_t>(phases));
       parallelFor(0, found.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
-          if (progress.cancelled()) return;
           Vec3i phase = best;
           phase[axis] = static_cast<int>(p);
           found[p] = repetition(phase);
         }
       });
-      if (progress.cancelled()) return best;
       for (int p = 0; p < phases; ++p)
         if (found[static_cast<std::size_t>(p)] > highest) {
           highest = found[static_cast<std::size_t>(p)];
@@ -181,7 +184,8 @@ Vec3i findPhase(const Array3D<float>& values, const Vec3i& block, double toleran
 Labelled labelOverlapping(const Array3D<float>& values, const Vec3i& stride, double tolerance,
                           Lattice& lattice, const Progress& progress) {
   for (int densest = 1;; densest *= 2) {
-    progress.report("taking overlapping blocks", 0);
+    // Each try has a fraction of what is left.
+    progress.report("taking overlapping blocks", 1 - 1.0 / densest);
     // Steps that divide the stride, so that the example's own neighbors are among the pairs.
     for (int axis = 0; axis < 3; ++axis) {
       const bool overlaps = stride[axis] < lattice.block[axis];
@@ -191,10 +195,9 @@ Labelled labelOverlapping(const Array3D<float>& values, const Vec3i& stride, dou
     }
     const bool sparsest = lattice.step == stride;
     const int most = sparsest ? kMostOverlapping : kGoodOverlapping;
-    std::optional<Labelled> labelled = label(values, lattice, tolerance, most);
+    std::optional<Labelled> labelled = label(values, lattice, tolerance, most, progress);
     if (labelled) return std::move(*labelled);
     if (sparsest) refuseLabels(kMostOverlapping);
-    if (progress.cancelled()) return {};
   }
 }
 
@@ -214,7 +217,8 @@ double squaredDifference(const Array3D<float>& values, const Vec3i& a, const Vec
 // More members than this are compared with as many of them, evenly chosen.
 constexpr std::size_t kCompared = 64;
 
-std::vector<Vec3i> findMedoids(const Array3D<float>& values, const FieldBlocks& blocks) {
+std::vector<Vec3i> findMedoids(const Array3D<float>& values, const FieldBlocks& blocks,
+                               const Progress& progress) {
   std::vector<Vec3i> medoids(blocks.members.size());
   parallelFor(0, medoids.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t l = begin; l < end; ++l) {
@@ -222,6 +226,7 @@ std::vector<Vec3i> findMedoids(const Array3D<float>& values, const FieldBlocks& 
       const std::size_t step = (members.size() + kCompared - 1) / kCompared;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t m = 0; m < members.size(); m += step) {
+        progress.check();
         double sum = 0;
         for (std::size_t n = 0; n < members.size(); n += step)
           sum += squaredDifference(values, blocks.phase + corner(members[m], blocks.step),
@@ -237,11 +242,13 @@ std::vector<Vec3i> findMedoids(const Array3D<float>& values, const FieldBlocks& 
 
 }  // namespace
 
-Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& options) {
+Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& options,
+                    const Progress& progress) {
   check(options);
   const Array3D<float> values = truncated(field, options.truncation);
   Vec3i block{};
   for (int axis = 0; axis < 3; ++axis) {
+    progress.report("finding how blocks repeat", axis / 3.0);
     const int n = field.size()[axis];
     if (options.block[axis] != 0) {
       block[axis] = options.block[axis];
@@ -254,7 +261,7 @@ Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& option
         for (std::size_t p = begin; p < end; ++p) {
           Vec3i step{};
           step[axis] = static_cast<int>(p);
-          same[p] = sameAfter(values, step, options.tolerance);
+          same[p] = sameAfter(values, step, options.tolerance, progress);
         }
       });
       const double best = *std::ranges::max_element(same);
@@ -271,9 +278,8 @@ Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& option
 FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& options,
                           const Progress& progress) {
   check(options);
-  progress.report("finding how blocks repeat", 0);
   FieldBlocks blocks;
-  blocks.block = findBlockSize(field, options);
+  blocks.block = findBlockSize(field, options, progress.part(0, 0.2));
   for (int axis = 0; axis < 3; ++axis) {
     const int n = field.size()[axis], side = blocks.block[axis];
     if (side > n) {
@@ -305,13 +311,14 @@ FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& 
   Lattice lattice{blocks.block, blocks.stride, options.phase.value_or(Vec3i{})};
   Labelled labelled;
   if (options.overlap > 0) {
-    labelled = labelOverlapping(values, blocks.stride, options.tolerance, lattice, progress);
+    labelled = labelOverlapping(values, blocks.stride, options.tolerance, lattice,
+                                progress.part(0.2, 0.6));
   } else {
     if (!options.phase)
-      lattice.phase = findPhase(values, blocks.block, options.tolerance, progress);
-    if (!progress.cancelled()) labelled = labelOrThrow(values, lattice, options.tolerance);
+      lattice.phase = findPhase(values, blocks.block, options.tolerance, progress.part(0.2, 0.6));
+    progress.report("labeling blocks", 0.6);
+    labelled = labelOrThrow(values, lattice, options.tolerance, progress);
   }
-  if (progress.cancelled()) return {};
   blocks.phase = lattice.phase;
   blocks.step = lattice.step;
   blocks.repetition = labelled.repetition();
@@ -325,9 +332,11 @@ FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& 
   blocks.grid.cellSize = cast<double>(blocks.stride) * field.voxelSize;
   const Vec3d half{0.5, 0.5, 0.5};
   blocks.grid.origin = field.position(cast<double>(blocks.phase) - half);
-  blocks.medoid = findMedoids(values, blocks);
-  blocks.adjacency =
-      options.overlap > 0 ? overlapAdjacency(values, blocks) : findAdjacency(blocks.grid);
+  progress.report("comparing blocks of one label", 0.7);
+  blocks.medoid = findMedoids(values, blocks, progress);
+  const Progress last = progress.part(0.85, 1);
+  blocks.adjacency = options.overlap > 0 ? overlapAdjacency(values, blocks, last)
+                                         : findAdjacency(blocks.grid, {}, last);
   return blocks;
 }
 
@@ -357,6 +366,7 @@ RecognizedBlocks recognizeBlocks(const DistanceField& field, const DistanceField
     const Array3D<std::uint8_t> cells(lattice.cells(field.size()));
     const std::size_t judged = std::min(cells.count(), kJudged);
     int found = 0;
+    progress.check();
     for (std::size_t n = 0; n < judged; ++n)
       found += labelAt(lattice.start(cells.ijk(n * cells.count() / judged))) < labels;
     return static_cast<double>(found) / static_cast<double>(judged);
@@ -368,10 +378,8 @@ RecognizedBlocks recognizeBlocks(const DistanceField& field, const DistanceField
   std::vector<double> share(allPhases.count());
   progress.report("recognizing blocks", 0);
   parallelFor(0, share.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end && !progress.cancelled(); ++p)
-      share[p] = knownBlocks(allPhases.ijk(p));
+    for (std::size_t p = begin; p < end; ++p) share[p] = knownBlocks(allPhases.ijk(p));
   });
-  if (progress.cancelled()) return {};
   RecognizedBlocks result;
   result.phase =
       allPhases.ijk(static_cast<std::size_t>(std::ranges::max_element(share) - share.begin()));
@@ -382,7 +390,12 @@ RecognizedBlocks recognizeBlocks(const DistanceField& field, const DistanceField
   result.grid.labels.back().name = "not in the example";
   result.grid.cellSize = blocks.grid.cellSize;
   result.grid.origin = field.position(cast<double>(result.phase) - Vec3d{0.5, 0.5, 0.5});
-  for (std::size_t c = 0; c < result.grid.cells.count(); ++c) {
+  const std::size_t cells = result.grid.cells.count();
+  for (std::size_t c = 0; c < cells; ++c) {
+    if (c % 256 == 0) {
+      progress.report("recognizing blocks",
+                      0.5 + 0.5 * static_cast<double>(c) / static_cast<double>(cells));
+    }
     const int l = labelAt(lattice.start(result.grid.cells.ijk(c)));
     result.grid.cells.data()[c] = static_cast<Label>(l);
     result.unknown += l == labels;
@@ -405,7 +418,7 @@ std::array<bool, 6> cutSides(const DistanceField& field) {
 }
 
 PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks,
-                         const Array3D<Label>& labels) {
+                         const Array3D<Label>& labels, const Progress& progress) {
   if (labels.empty()) throw InputError("there are no labels to put blocks in place of");
   for (Label l : labels.values())
     if (l >= blocks.members.size())
@@ -444,6 +457,10 @@ PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks
     return sum;
   };
   for (std::size_t c = 0; c < labels.count(); ++c) {
+    if (c % 64 == 0) {
+      progress.report("placing blocks",
+                      static_cast<double>(c) / static_cast<double>(labels.count()));
+    }
     const Vec3i cell = labels.ijk(c), to = corner(cell, blocks.stride);
     const Label l = labels.data()[c];
     Vec3i best = blocks.medoid[l];

@@ -62,7 +62,8 @@ struct FieldBlocks {
 /// For each axis the shortest step after which the field is most nearly itself, near its surface:
 /// the period of a regular example. Where nothing repeats, 8; never more than half the axis, and an
 /// axis of fewer than 28 samples is one block. O(samples × largest step).
-Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& options = {});
+Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& options = {},
+                    const Progress& progress = {});
 
 /// Cuts a field into labelled blocks. Labels are numbered by their first block's index. Blocks are
 /// compared with the first block of each label so far, each comparison left early: O(blocks ×
@@ -70,7 +71,7 @@ Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& option
 /// With overlap there are at most 4,096 labels, unless the field has more blocks without it, and
 /// all pairs are compared along each axis. Deterministic at any number of threads. Throws
 /// `InputError` for options out of range, a field smaller than a block, or more than 65,536 labels
-/// (16,384 with overlap). An empty grid when cancelled.
+/// (16,384 with overlap). Throws `Cancelled`.
 FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& options = {},
                           const Progress& progress = {});
 
@@ -95,7 +96,7 @@ struct RecognizedBlocks {
 /// tile: each block gets the label that it would have in the example. What `findViolations` then
 /// says of the grid is how far any result is from keeping the example's adjacencies. O((blocks +
 /// 64 phases) × labels) at worst. Deterministic at any number of threads. Throws `InputError` for
-/// blocks that overlap or a field without a whole block. An empty grid when cancelled.
+/// blocks that overlap or a field without a whole block. Throws `Cancelled`.
 RecognizedBlocks recognizeBlocks(const DistanceField& field, const DistanceField& example,
                                  const FieldBlocks& blocks, const Progress& progress = {});
 
@@ -105,6 +106,6 @@ RecognizedBlocks recognizeBlocks(const DistanceField& field, const DistanceField
 /// members × face). Throws `InputError` for a grid without cells or with labels that `blocks` does
 /// not know, or when memory does not suffice.
 PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks,
-                         const Array3D<Label>& labels);
+                         const Array3D<Label>& labels, const Progress& progress = {});
 
 }  // namespace exemplar

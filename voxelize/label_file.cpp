@@ -14,24 +14,25 @@ bool isLabelFile(const std::filesystem::path& path) {
   return ending == ".txt" || ending == ".vox";
 }
 
-LabelGrid readLabels(const std::filesystem::path& path) {
+LabelGrid readLabels(const std::filesystem::path& path, const Progress& progress) {
   const std::string ending = lowerExtension(path), name = path.string();
-  if (ending == ".txt") return parseLabelText(readFile(path), name);
+  if (ending == ".txt") return parseLabelText(readFile(path), name, progress);
   if (ending == ".vox") return parseVox(readFile(path), name);
-  if (ending == ".vdb") return readLabelsVdb(path);
+  if (ending == ".vdb") return readLabelsVdb(path, progress);
   if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
-    return labelsFromImage(decodeImage(readFile(path), name), name).grid;
+    return labelsFromImage(decodeImage(readFile(path), name), name, {}, progress).grid;
   }
   throw InputError(name + ": not a kind of label grid; use .txt .vox .vdb .png or .jpg");
 }
 
-void writeLabels(const std::filesystem::path& path, const LabelGrid& grid) {
+void writeLabels(const std::filesystem::path& path, const LabelGrid& grid,
+                 const Progress& progress) {
   const std::string ending = lowerExtension(path), name = path.string();
   validate(grid, name);
-  if (ending == ".txt") return writeFile(path, formatLabelText(grid));
-  if (ending == ".vox") return writeFile(path, formatVox(grid, name));
-  if (ending == ".vdb") return writeLabelsVdb(path, grid);
-  if (ending == ".png") return writePng(path, imageFromLabels(grid));
+  if (ending == ".txt") return writeFile(path, formatLabelText(grid, progress));
+  if (ending == ".vox") return writeFile(path, formatVox(grid, name, progress));
+  if (ending == ".vdb") return writeLabelsVdb(path, grid, progress);
+  if (ending == ".png") return writePng(path, imageFromLabels(grid, progress));
   throw InputError(name + ": cannot write labels to this kind of file; use one of " +
                    kLabelEndings);
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/progress.h"
 #include "voxelize/label_grid.h"
 
 namespace exemplar {
@@ -22,13 +23,14 @@ bool isLabelFile(const std::filesystem::path& path);
 /// flat grid, one label for each colour, x to the right and y up; transparent pixels are empty.
 ///
 /// Throws `InputError` naming the file, and the line in text, for anything malformed.
-LabelGrid readLabels(const std::filesystem::path& path);
+LabelGrid readLabels(const std::filesystem::path& path, const Progress& progress = {});
 
 /// Writes a grid in the format of the path's ending, whole or not at all: `.txt` (labels, names and
 /// object lines), `.vox` (colours, 8 bits sRGB; at most 255 labels that are not empty), `.vdb` (a
 /// grid of 32-bit integers; everything, losslessly) or `.png` (flat grids; colours). The same grid
 /// gives the same bytes. Throws `InputError` for what the format cannot hold.
-void writeLabels(const std::filesystem::path& path, const LabelGrid& grid);
+void writeLabels(const std::filesystem::path& path, const LabelGrid& grid,
+                 const Progress& progress = {});
 
 /// The endings that `writeLabels` knows.
 inline constexpr const char* kLabelEndings = ".txt .vox .vdb .png";
@@ -40,8 +42,9 @@ inline constexpr const char* kLabelEndings = ".txt .vox .vdb .png";
 /// numbers are spread over lines does not matter. An optional section `<Objects>` names the scene
 /// and, for each label from 1 on, gives a line of text, lines that begin with `$`, and a line `#`.
 /// Label 0 is empty; the others get `distinctColor`s.
-LabelGrid parseLabelText(std::string_view bytes, const std::string& name);
-std::string formatLabelText(const LabelGrid& grid);
+LabelGrid parseLabelText(std::string_view bytes, const std::string& name,
+                         const Progress& progress = {});
+std::string formatLabelText(const LabelGrid& grid, const Progress& progress = {});
 
 /// MagicaVoxel's `.vox`, versions 150 and 200. Label 0 is empty, 1.. are the palette's colours that
 /// are used, in its order, named "colour N". The models that the scene graph shows are merged with
@@ -49,12 +52,14 @@ std::string formatLabelText(const LabelGrid& grid);
 /// model counts. Models longer than 256 cells are written as several with a scene graph, so that
 /// what is written reads back the same.
 LabelGrid parseVox(std::string_view bytes, const std::string& name);
-std::string formatVox(const LabelGrid& grid, const std::string& name);
+std::string formatVox(const LabelGrid& grid, const std::string& name,
+                      const Progress& progress = {});
 
 /// Grids of labels in OpenVDB files: an Int32 grid "label" whose voxel (i, j, k) is cell (i, j, k),
 /// with the looks as metadata. Foreign files may have any labels from 0 to 65535; their box is that
 /// of the active voxels.
-LabelGrid readLabelsVdb(const std::filesystem::path& path);
-void writeLabelsVdb(const std::filesystem::path& path, const LabelGrid& grid);
+LabelGrid readLabelsVdb(const std::filesystem::path& path, const Progress& progress = {});
+void writeLabelsVdb(const std::filesystem::path& path, const LabelGrid& grid,
+                    const Progress& progress = {});
 
 }  // namespace exemplar

@@ -62,7 +62,7 @@ void requireFlat(const LabelGrid& grid) {
 }  // namespace
 
 ImageLabels labelsFromImage(const Image8& image, const std::string& name,
-                            const ImageLabelsOptions& options) {
+                            const ImageLabelsOptions& options, const Progress& progress) {
   const int side = options.piece;
   if (side < 1 || side > 256) throw InputError("a piece should be 1 to 256 pixels a side");
   if (image.width < side || image.height < side) {
@@ -79,6 +79,7 @@ ImageLabels labelsFromImage(const Image8& image, const std::string& name,
   result.grid.cells = Array3D<Label>(size);
   std::unordered_map<std::string, Label> known;
   for (int row = 0; row < size.y; ++row) {
+    progress.report("cutting the picture into pieces", static_cast<double>(row) / size.y);
     for (int column = 0; column < size.x; ++column) {
       // The lowest row of cells is the picture's last; what is left over lies at its top.
       const int y = size.y - 1 - row;
@@ -101,7 +102,7 @@ ImageLabels labelsFromImage(const Image8& image, const std::string& name,
   return result;
 }
 
-Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels) {
+Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels, const Progress& progress) {
   requireFlat(grid);
   const Vec3i size = grid.size();
   const int side = labels.options.piece, step = labels.options.overlap ? 1 : side;
@@ -111,6 +112,7 @@ Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels) {
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height * 4);
   // Pieces that overlap cover what earlier ones laid, all but their lower left pixels.
   for (int y = 0; y < size.y; ++y) {
+    progress.report("laying pieces of the picture", static_cast<double>(y) / size.y);
     for (int x = 0; x < size.x; ++x) {
       const Label label = grid.cells(x, y, 0);
       if (label >= labels.pieces.size()) {
@@ -126,11 +128,12 @@ Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels) {
   return image;
 }
 
-Image8 imageFromLabels(const LabelGrid& grid) {
+Image8 imageFromLabels(const LabelGrid& grid, const Progress& progress) {
   requireFlat(grid);
   Image8 image{grid.size().x, grid.size().y, 4, {}};
   image.pixels.reserve(static_cast<std::size_t>(image.width) * image.height * 4);
   for (int y = image.height - 1; y >= 0; --y) {
+    progress.report("coloring the picture", 1 - (y + 1.0) / image.height);
     for (int x = 0; x < image.width; ++x) {
       const auto& color = grid.labels[grid.cells(x, y, 0)].color;
       for (int c = 0; c < 3; ++c) image.pixels.push_back(linearToSrgb8(color[c]));

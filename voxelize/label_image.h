@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/progress.h"
 #include "mesh/image.h"
 #include "voxelize/label_grid.h"
 
@@ -33,14 +34,15 @@ struct ImageLabels {
 /// is left at the right and top, less than a piece, is not taken. Throws `InputError` ("NAME: ...")
 /// where the picture is smaller than a piece or has more than 65,536 different ones.
 ImageLabels labelsFromImage(const Image8& image, const std::string& name,
-                            const ImageLabelsOptions& options = {});
+                            const ImageLabelsOptions& options = {}, const Progress& progress = {});
 
 /// The picture of a flat grid: a piece for each label; where pieces overlap, their lower left
 /// pixels, and all of the pieces in the last column and the top row. Throws `InputError` for a grid
 /// of more than one layer or with labels that have no piece.
-Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels);
+Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels,
+                       const Progress& progress = {});
 
 /// The picture of a flat grid, a pixel for each cell in the label's own colour.
-Image8 imageFromLabels(const LabelGrid& grid);
+Image8 imageFromLabels(const LabelGrid& grid, const Progress& progress = {});
 
 }  // namespace exemplar

@@ -23,26 +23,42 @@ struct Rectangle {
 
 class Mesher {
  public:
-  Mesher(const LabelGrid& grid, const LabelMeshOptions& options) : grid_(grid), options_(options) {
+  Mesher(const LabelGrid& grid, const LabelMeshOptions& options, const Progress& progress)
+      : grid_(grid), options_(options), progress_(progress) {
     for (const LabelLook& look : grid.labels) empty_.push_back(isEmpty(look));
   }
 
   TriangleMesh make() {
     for (int axis = 0; axis < 3; ++axis) {
-      for (const bool far : {false, true}) findRectangles(axis, far);
+      for (const bool far : {false, true}) {
+        progress_.report(kStage, (2 * axis + (far ? 1 : 0)) / 12.0);
+        findRectangles(axis, far);
+      }
     }
     // Every corner of a rectangle is a vertex; rectangles along whose rims it lies take it in.
-    for (const Rectangle& r : rectangles_) {
+    for (std::size_t n = 0; n < rectangles_.size(); ++n) {
+      if (n % kAtOnce == 0) reportShare(0.5, n);
+      const Rectangle& r = rectangles_[n];
       for (const auto& [u, v] : {std::pair{r.u0, r.v0}, std::pair{r.u1, r.v0},
                                  std::pair{r.u1, r.v1}, std::pair{r.u0, r.v1}}) {
         vertices_.try_emplace(keyAt(r, u, v), kUnset);
       }
     }
-    for (const Rectangle& r : rectangles_) addRectangle(r);
+    for (std::size_t n = 0; n < rectangles_.size(); ++n) {
+      if (n % kAtOnce == 0) reportShare(0.75, n);
+      addRectangle(rectangles_[n]);
+    }
     return std::move(mesh_);
   }
 
  private:
+  static constexpr const char* kStage = "making boxes of cells";
+  static constexpr std::size_t kAtOnce = 4096;  // rectangles between reports
+
+  void reportShare(double from, std::size_t rectangle) const {
+    progress_.report(kStage, from + 0.25 * static_cast<double>(rectangle) /
+                                        static_cast<double>(rectangles_.size()));
+  }
   Label at(const Vec3i& cell) const { return grid_.cells[cell]; }
 
   /// Whether a cell of label `a` shows its face towards `beyond`.
@@ -62,6 +78,7 @@ class Mesher {
       return faces[static_cast<std::size_t>(j) * size[u] + i];
     };
     for (int layer = 0; layer < size[axis]; ++layer) {
+      progress_.check();
       for (int j = 0; j < size[v]; ++j) {
         for (int i = 0; i < size[u]; ++i) {
           Vec3i cell;
@@ -195,6 +212,7 @@ class Mesher {
 
   const LabelGrid& grid_;
   LabelMeshOptions options_;
+  const Progress& progress_;
   std::vector<bool> empty_;
   std::vector<Rectangle> rectangles_;
   std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
@@ -204,8 +222,9 @@ class Mesher {
 
 }  // namespace
 
-TriangleMesh labelMesh(const LabelGrid& grid, const LabelMeshOptions& options) {
-  return Mesher(grid, options).make();
+TriangleMesh labelMesh(const LabelGrid& grid, const LabelMeshOptions& options,
+                       const Progress& progress) {
+  return Mesher(grid, options, progress).make();
 }
 
 }  // namespace exemplar

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 #include "voxelize/label_grid.h"
 
@@ -23,6 +24,7 @@ struct LabelMeshOptions {
 /// corner alone have vertices of their own there, so that it is manifold, too, but for edges whose
 /// both ends are joined through further cells. An empty mesh where every cell is empty. O(cells);
 /// the same at any number of threads.
-TriangleMesh labelMesh(const LabelGrid& grid, const LabelMeshOptions& options = {});
+TriangleMesh labelMesh(const LabelGrid& grid, const LabelMeshOptions& options = {},
+                       const Progress& progress = {});
 
 }  // namespace exemplar

@@ -43,10 +43,12 @@ Label readLabel(TextScanner& scan) {
   return static_cast<Label>(label);
 }
 
-void readCells(TextScanner& scan, Array3D<Label>& cells) {
+void readCells(TextScanner& scan, Array3D<Label>& cells, const Progress& progress) {
   const Vec3i size = cells.size();
   for (int z = 0; z < size.z; ++z) {
+    progress.report("reading labels", static_cast<double>(z) / size.z);
     for (int x = 0; x < size.x; ++x) {
+      progress.check();
       for (int y = 0; y < size.y; ++y) {
         while (scan.atLineEnd()) {
           if (scan.nextLine()) continue;
@@ -110,7 +112,8 @@ std::string oneLine(std::string text) {
 
 }  // namespace
 
-LabelGrid parseLabelText(std::string_view bytes, const std::string& name) {
+LabelGrid parseLabelText(std::string_view bytes, const std::string& name,
+                         const Progress& progress) {
   TextScanner scan(bytes, name);
   const Vec3i size = readSize(scan);
   // Each label takes a digit and a blank, but for the last.
@@ -122,7 +125,7 @@ LabelGrid parseLabelText(std::string_view bytes, const std::string& name) {
                 "use a smaller grid");
   LabelGrid grid;
   grid.cells = Array3D<Label>(size);
-  readCells(scan, grid.cells);
+  readCells(scan, grid.cells, progress);
   const auto cells = grid.cells.values();
   grid.labels.resize(std::size_t{1} + *std::max_element(cells.begin(), cells.end()));
   while (scan.nextLine()) {
@@ -144,7 +147,7 @@ LabelGrid parseLabelText(std::string_view bytes, const std::string& name) {
   return grid;
 }
 
-std::string formatLabelText(const LabelGrid& grid) {
+std::string formatLabelText(const LabelGrid& grid, const Progress& progress) {
   const Vec3i size = grid.size();
   std::string text = "grid of labels, written by exemplar\n";
   text += "layers from the bottom, each of X lines with Y labels; 0 is empty\n";
@@ -152,7 +155,9 @@ std::string formatLabelText(const LabelGrid& grid) {
   text += std::to_string(size.x) + " " + std::to_string(size.y) + " " + std::to_string(size.z);
   text += "\n\n";
   for (int z = 0; z < size.z; ++z) {
+    progress.report("writing labels", static_cast<double>(z) / size.z);
     for (int x = 0; x < size.x; ++x) {
+      progress.check();
       for (int y = 0; y < size.y; ++y) {
         appendInt(text, grid.cells(x, y, z));
         text += y + 1 < size.y ? ' ' : '\n';

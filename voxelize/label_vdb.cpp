@@ -10,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "mesh/text_scanner.h"
@@ -112,7 +113,7 @@ void readPlace(const openvdb::Int32Grid& grid, const CoordBBox& box, LabelGrid& 
 
 }  // namespace
 
-LabelGrid readLabelsVdb(const fs::path& path) {
+LabelGrid readLabelsVdb(const fs::path& path, const Progress& progress) {
   LabelGrid result;
   withVdbGrids(path, [&](const openvdb::GridPtrVec& grids) {
     openvdb::Int32Grid::Ptr grid;
@@ -131,14 +132,15 @@ LabelGrid readLabelsVdb(const fs::path& path) {
     const Coord size = box.dim();
     result.cells = Array3D<Label>({size.x(), size.y(), size.z()});
     const auto accessor = grid->getConstAccessor();
-    for (std::size_t n = 0; n < result.cells.count(); ++n) {
-      const Vec3i at = result.cells.ijk(n);
+    const double layers = result.size().z;
+    forEachCell(result.size(), [&](const Vec3i& at) {
+      if (at.x == 0 && at.y == 0) progress.report("reading labels", at.z / layers);
       const int label = accessor.getValue(box.min().offsetBy(at.x, at.y, at.z));
       if (label < 0 || label >= kMostLabels) {
         fail(path, "a label should be 0 to 65535, not " + std::to_string(label));
       }
-      result.cells.values()[n] = static_cast<Label>(label);
-    }
+      result.cells[at] = static_cast<Label>(label);
+    });
   });
   const auto cells = result.cells.values();
   const std::size_t needed = std::size_t{1} + *std::max_element(cells.begin(), cells.end());
@@ -150,7 +152,7 @@ LabelGrid readLabelsVdb(const fs::path& path) {
   return result;
 }
 
-void writeLabelsVdb(const fs::path& path, const LabelGrid& grid) {
+void writeLabelsVdb(const fs::path& path, const LabelGrid& grid, const Progress& progress) {
   openvdbReady();
   const auto out = openvdb::Int32Grid::create(0);
   out->setName("label");
@@ -165,12 +167,11 @@ void writeLabelsVdb(const fs::path& path, const LabelGrid& grid) {
   out->insertMeta(kLooks, openvdb::StringMetadata(looksText(grid)));
   if (!grid.name.empty()) out->insertMeta(kScene, openvdb::StringMetadata(grid.name));
   auto accessor = out->getAccessor();
-  for (std::size_t n = 0; n < grid.cells.count(); ++n) {
-    const Label label = grid.cells.values()[n];
-    if (label == 0) continue;
-    const Vec3i at = grid.cells.ijk(n);
-    accessor.setValue(Coord(at.x, at.y, at.z), label);
-  }
+  forEachCell(size, [&](const Vec3i& at) {
+    if (at.x == 0 && at.y == 0) progress.report("writing labels", double(at.z) / size.z);
+    const Label label = grid.cells[at];
+    if (label != 0) accessor.setValue(Coord(at.x, at.y, at.z), label);
+  });
   writeVdbGrids(path, {out});
 }
 

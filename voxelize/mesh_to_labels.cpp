@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -23,6 +24,7 @@ namespace exemplar {
 namespace {
 
 constexpr std::uint32_t kNoMaterial = 0xffffffff;
+constexpr const char* kInsideStage = "finding what is inside";
 
 /// The mesh in cells from the grid's corner.
 TriangleMesh inCells(const TriangleMesh& mesh, const LabelGrid& grid) {
@@ -102,7 +104,7 @@ LabelGrid gridOver(const Box3d& box, const Vec3d& cellSize, int air, double slac
 
 Array3D<std::uint8_t> cellsInside(const TriangleMesh& mesh, const LabelGrid& grid,
                                   const Progress& progress) {
-  progress.report("finding what is inside", 0);
+  progress.report(kInsideStage, 0);
   const Vec3i size = grid.size();
   Array3D<std::uint8_t> inside(size);
   const TriangleSoup soup = makeSoup(inCells(mesh, grid), {0, 0, 0}, 1);
@@ -115,7 +117,8 @@ Array3D<std::uint8_t> cellsInside(const TriangleMesh& mesh, const LabelGrid& gri
   } else {
     solid.emplace(soup, std::make_shared<const TriangleTree>(cornersOf(soup)));
   }
-  // Cells of a block stand together, which is what the winding numbers are quick at.
+  progress.report(kInsideStage, 0.3);
+  // Cells of a block are near each other, which makes winding numbers quick.
   constexpr int kBlock = 8;
   const Vec3i blocks{(size.x + kBlock - 1) / kBlock, (size.y + kBlock - 1) / kBlock,
                      (size.z + kBlock - 1) / kBlock};
@@ -125,18 +128,15 @@ Array3D<std::uint8_t> cellsInside(const TriangleMesh& mesh, const LabelGrid& gri
     std::vector<Vec3i> cells;
     std::vector<std::uint8_t> result;
     for (std::size_t b = begin; b < end; ++b) {
+      progress.check();
       const Vec3i low = order.ijk(b) * kBlock;
       const Vec3i high = min(low + Vec3i{kBlock, kBlock, kBlock}, size);
       points.clear();
       cells.clear();
-      for (int k = low.z; k < high.z; ++k) {
-        for (int j = low.y; j < high.y; ++j) {
-          for (int i = low.x; i < high.x; ++i) {
-            cells.push_back({i, j, k});
-            points.push_back({i + 0.5, j + 0.5, k + 0.5});
-          }
-        }
-      }
+      forEachCell(CellBox{low, high}, [&](const Vec3i& cell) {
+        cells.push_back(cell);
+        points.push_back(cast<double>(cell) + Vec3d{0.5, 0.5, 0.5});
+      });
       result.assign(points.size(), 0);
       if (parity) {
         parity->inside(points, result);
@@ -163,23 +163,25 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
   std::vector<std::uint32_t> material(grid.cells.count(), kNoMaterial);
 
   if (options.fill != VoxelFill::Solid) {
-    progress.report("cutting triangles along cells", 0);
-    const CellCut cut = cutAlongCells(mesh, grid.origin, grid.cellSize, grid.size());
+    const CellCut cut = cutAlongCells(mesh, grid.origin, grid.cellSize, grid.size(), kCutTolerance,
+                                      progress.part(0, 0.35));
+    progress.report("finding the materials of cells", 0.35);
     parallelFor(0, grid.cells.count(), 4096, [&](std::size_t begin, std::size_t end) {
+      progress.check();
       std::vector<std::pair<std::uint32_t, double>> areas;
       for (std::size_t c = begin; c < end; ++c) material[c] = mostSeen(mesh, cut, c, areas);
     });
   }
   if (options.fill != VoxelFill::Surface) {
-    const Array3D<std::uint8_t> inside = cellsInside(mesh, grid, progress);
-    if (progress.cancelled()) return {};
-    progress.report("colouring what is inside", 0);
+    const Array3D<std::uint8_t> inside = cellsInside(mesh, grid, progress.part(0.4, 0.8));
+    progress.report("coloring what is inside", 0.8);
     std::vector<Corners> corners;
     for (const auto& [a, b, c] : mesh.triangles) {
       corners.push_back({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
     }
     const TriangleTree tree(std::move(corners));
     parallelFor(0, grid.cells.count(), 1024, [&](std::size_t begin, std::size_t end) {
+      progress.check();
       for (std::size_t c = begin; c < end; ++c) {
         if (!inside.values()[c] || material[c] != kNoMaterial) continue;
         const Vec3d center =

@@ -36,7 +36,7 @@ struct MeshToLabelsOptions {
 /// refused, overlapping solids are one. Cost: about 1 microsecond a cell and 2 a part that the
 /// planes between cells cut a triangle into. The same at any number of threads. Throws `InputError`
 /// for a mesh that does not `validate`, for options out of range, and where memory would not do;
-/// cancelled, it returns a grid without cells.
+/// `Cancelled`.
 LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& options = {},
                        const Progress& progress = {});
 

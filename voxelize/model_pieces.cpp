@@ -75,9 +75,10 @@ class PieceFinder {
     result_.tolerance = options_.tolerance;
     result_.grid = gridOver(options_.box.value_or(boundingBox(mesh_)), options_.cellSize,
                             options_.air, options_.tolerance);
-    progress.report("cutting the example into pieces", 0);
     cut_ = cutAlongCells(mesh_, result_.grid.origin, result_.grid.cellSize, result_.grid.size(),
-                         options_.tolerance);
+                         options_.tolerance, progress.part(0, 0.2));
+    constexpr const char* kStage = "finding equal pieces";
+    progress.report(kStage, 0.2);
     // The shapes of cells are independent; which are equal is found in the cells' order.
     const std::size_t cells = result_.grid.cells.count();
     std::vector<std::uint32_t> filled;
@@ -87,19 +88,24 @@ class PieceFinder {
     std::vector<PieceShape> shapes(filled.size());
     parallelFor(0, filled.size(), 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n) {
+        progress.check();
         shapes[n] = PieceShape(mesh_, cut_, filled[n], options_.tolerance);
       }
     });
     shapes_.resize(1);
     cellOf_.resize(1);
     for (std::size_t n = 0; n < filled.size(); ++n) {
+      if (n % 1024 == 0) {
+        progress.report(kStage, 0.5 + 0.2 * static_cast<double>(n) / double(filled.size()));
+      }
       if (shapes[n].empty()) continue;
       result_.grid.cells.values()[filled[n]] = labelOf(std::move(shapes[n]), filled[n]);
-      if (progress.cancelled()) return {};
     }
-    copyPieces();
-    labelInside(progress);
-    findImages();
+    progress.report("copying pieces", 0.7);
+    copyPieces(progress);
+    labelInside(progress.part(0.75, 0.9));
+    progress.report("finding mirrored and turned pieces", 0.9);
+    findImages(progress);
     return std::move(result_);
   }
 
@@ -127,13 +133,14 @@ class PieceFinder {
   }
 
   /// The triangles of each label's first cell.
-  void copyPieces() {
+  void copyPieces(const Progress& progress) {
     TriangleMesh& out = result_.mesh;
     out.materials = mesh_.materials;
     out.textures = mesh_.textures;
     const std::vector<std::array<float, 4>> colors = materialColors(mesh_);
     result_.first = {0, 0};
     for (std::size_t label = 1; label < shapes_.size(); ++label) {
+      progress.check();
       const std::size_t cell = cellOf_[label];
       const Vec3d corner = cast<double>(result_.grid.cells.ijk(cell));
       LookMixer mixer;
@@ -235,7 +242,7 @@ class PieceFinder {
     result_.first.push_back(result_.first.back());
   }
 
-  void findImages() {
+  void findImages(const Progress& progress) {
     const std::size_t labels = result_.grid.labels.size();
     const bool square =
         std::abs(options_.cellSize.x - options_.cellSize.y) <= 1e-9 * options_.cellSize.x;
@@ -247,6 +254,7 @@ class PieceFinder {
     }
     parallelFor(1, shapes_.size(), 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t label = begin; label < end; ++label) {
+        progress.check();
         result_.mirroredX[label] = known(shapes_[label].mirrored(0));
         result_.mirroredY[label] = known(shapes_[label].mirrored(1));
         if (square) result_.turned[label] = known(shapes_[label].turned());

@@ -61,12 +61,13 @@ ModelPieces cutIntoPieces(const TriangleMesh& mesh, const ModelPiecesOptions& op
 /// has labels that are no pieces, where the result would have no triangle, or would not fit in
 /// memory.
 TriangleMesh assemblePieces(const LabelGrid& grid, const ModelPieces& pieces,
-                            std::vector<std::uint32_t>* cellOf = nullptr);
+                            std::vector<std::uint32_t>* cellOf = nullptr,
+                            const Progress& progress = {});
 
 /// Writes a grid of pieces as a `.glb` that holds each piece once and a node for each cell: small,
 /// and easy to take apart; cells are not joined. Returns the number of nodes. Throws `InputError`
 /// as `assemblePieces` does, and where the file cannot be written.
 std::size_t writePieceInstances(const std::filesystem::path& path, const LabelGrid& grid,
-                                const ModelPieces& pieces);
+                                const ModelPieces& pieces, const Progress& progress = {});
 
 }  // namespace exemplar

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/parallel.h"
 
 namespace exemplar {
@@ -24,12 +25,10 @@ Shared shared(const Array3D<float>& values, const Vec3i& start, const Vec3i& siz
   Shared result;
   result.samples.reserve(static_cast<std::size_t>(volume(size)));
   double sum = 0;
-  for (int k = 0; k < size.z; ++k)
-    for (int j = 0; j < size.y; ++j)
-      for (int i = 0; i < size.x; ++i) {
-        result.samples.push_back(values[start + Vec3i{i, j, k}]);
-        sum += result.samples.back();
-      }
+  forEachCell(size, [&](const Vec3i& p) {
+    result.samples.push_back(values[start + p]);
+    sum += result.samples.back();
+  });
   result.mean = sum / static_cast<double>(result.samples.size());
   return result;
 }
@@ -56,11 +55,13 @@ std::vector<std::uint64_t> shownPairs(const FieldBlocks& blocks, int axis) {
 
 }  // namespace
 
-Adjacency overlapAdjacency(const Array3D<float>& values, const FieldBlocks& blocks) {
+Adjacency overlapAdjacency(const Array3D<float>& values, const FieldBlocks& blocks,
+                           const Progress& progress) {
   // Frequencies, and what stands at the sides, are those of the grid.
   Adjacency adjacency = findAdjacency(blocks.grid);
   const std::size_t labels = blocks.members.size();
   for (int axis = 0; axis < 3; ++axis) {
+    progress.report("comparing overlapping blocks", axis / 3.0);
     std::vector<LabelPair>& rule = adjacency.rules[axis].pairs;
     const int overlap = blocks.block[axis] - blocks.stride[axis];
     if (overlap == 0) continue;  // one block, and so no pairs
@@ -71,6 +72,7 @@ Adjacency overlapAdjacency(const Array3D<float>& values, const FieldBlocks& bloc
     std::vector<Shared> high(labels), low(labels);
     parallelFor(0, labels, 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t l = begin; l < end; ++l) {
+        progress.check();
         const Vec3i& cell = blocks.members[l][0];
         Vec3i start;
         for (int a = 0; a < 3; ++a) start[a] = blocks.phase[a] + cell[a] * blocks.step[a];
@@ -91,6 +93,7 @@ Adjacency overlapAdjacency(const Array3D<float>& values, const FieldBlocks& bloc
     std::vector<std::vector<LabelPair>> found(labels);
     parallelFor(0, labels, 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t l = begin; l < end; ++l) {
+        progress.check();
         const auto mean = [&](std::size_t b) { return low[b].mean; };
         const double slack = tolerance + 1e-4;
         const auto from = std::ranges::lower_bound(byMean, high[l].mean - slack, {}, mean);

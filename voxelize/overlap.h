@@ -12,6 +12,7 @@ namespace exemplar {
 /// stride from which. `values` is the field that they were cut from, in voxels and truncated; of
 /// `blocks` all but the adjacency is there. First blocks of labels are compared, each pair whose
 /// shared samples agree on average: O(labels² × shared samples) at worst. Deterministic; parallel.
-Adjacency overlapAdjacency(const Array3D<float>& values, const FieldBlocks& blocks);
+Adjacency overlapAdjacency(const Array3D<float>& values, const FieldBlocks& blocks,
+                           const Progress& progress = {});
 
 }  // namespace exemplar

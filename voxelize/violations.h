@@ -3,11 +3,12 @@
 
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/axes.h"
+#include "core/progress.h"
 #include "voxelize/adjacency.h"
 
 namespace exemplar {
@@ -28,7 +29,7 @@ struct AdjacencyViolations {
 
 struct ViolationOptions {
   AdjacencyOptions adjacency;                   ///< how the examples were read
-  std::array<bool, 3> periodic{};               ///< the result repeats along x, y, z
+  Axes periodic;                                ///< the result tiles along these
   bool loop = false;                            ///< its last frame is followed by the first
   const Array3D<std::uint8_t>* mask = nullptr;  ///< cells that are 0 count for nothing
 };
@@ -38,8 +39,10 @@ struct ViolationOptions {
 /// shares no code with the solver or with `findAdjacency`. O(cells).
 AdjacencyViolations findViolations(std::span<const LabelGrid> result,
                                    std::span<const LabelGrid> examples,
-                                   const ViolationOptions& options = {});
+                                   const ViolationOptions& options = {},
+                                   const Progress& progress = {});
 AdjacencyViolations findViolations(const LabelGrid& result, const LabelGrid& example,
-                                   const ViolationOptions& options = {});
+                                   const ViolationOptions& options = {},
+                                   const Progress& progress = {});
 
 }  // namespace exemplar

@@ -135,7 +135,7 @@ std::string paletteChunk(const LabelGrid& grid, const std::vector<int>& colors) 
 
 }  // namespace
 
-std::string formatVox(const LabelGrid& grid, const std::string& name) {
+std::string formatVox(const LabelGrid& grid, const std::string& name, const Progress& progress) {
   const std::vector<int> colors = colorsOf(grid, name);
   const Vec3i size = grid.size();
   std::vector<Vec3i> corners;
@@ -143,6 +143,7 @@ std::string formatVox(const LabelGrid& grid, const std::string& name) {
   for (int k = 0; k < size.z; k += kModelSide) {
     for (int j = 0; j < size.y; j += kModelSide) {
       for (int i = 0; i < size.x; i += kModelSide) {
+        progress.report("writing labels", static_cast<double>(k) / size.z);
         const Vec3i low{i, j, k};
         corners.push_back(low);
         children += modelChunks(grid, colors, low,

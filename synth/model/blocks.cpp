@@ -10,14 +10,11 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "synth/model/catalog.h"
-#include "synth/model/exact.h"
-#include "synth/model/search.h"
+#include "core/random.h"
+#include "synth/model/region.h"
 
 namespace exemplar {
 namespace {
-
-constexpr std::uint32_t kAcceptStream = 0x4C424C32;  // whether a modified block is kept
 
 /// Where blocks begin along an axis: every half block, until one reaches the end.
 std::vector<int> beginnings(int n, int block, bool periodic) {
@@ -41,21 +38,25 @@ class BlockPass {
         labels_(std::move(start)),
         statistics_(statistics),
         progress_(progress),
-        parts_([this] { return NetworkPart(network_); }),
-        accept_(problem.options().seed, kAcceptStream) {}
+        regions_([this] { return Region(network_, base_); }),
+        accept_(problem.options().seed, stream::kBlockAccept) {}
 
-  Labelling run();
+  Labeling run();
 
  private:
-  struct Outcome {
-    bool changed = false;
-    int exact = 0, contradictions = 0;
+  struct Block {
+    std::vector<std::int32_t> cells;  // ascending
+    std::vector<std::int32_t> seen;   // by the choice of labels, beside neighbors in the network
+  };
+  struct Change {
+    bool made = false;
+    std::int64_t exact = 0, contradictions = 0;
   };
 
   void findBlocks();
   void findLevels();
-  bool accepted(int block, int round, const std::vector<Label>& fresh) const;
-  Outcome modify(int block, int round, std::vector<Label>& fresh);
+  bool accepted(const Region& region, int block, int round) const;
+  Change modify(int block, int round);
   void modifyLevel(const std::vector<int>& blocks, int round);
 
   const ModelProblem& problem_;
@@ -65,20 +66,21 @@ class BlockPass {
   std::vector<Label> labels_;
   ModelStatistics& statistics_;
   const Progress& progress_;
-  tbb::enumerable_thread_specific<NetworkPart> parts_;
+  tbb::enumerable_thread_specific<Region> regions_;
   Random accept_;
 
-  std::vector<std::vector<std::int32_t>> blocks_;  // cells, ascending
-  std::vector<std::vector<int>> levels_;           // blocks that do not touch each other
+  std::vector<Block> blocks_;
+  std::vector<std::vector<int>> levels_;  // blocks that do not touch each other
 };
 
 void BlockPass::findBlocks() {
   const ModelOptions& o = problem_.options();
-  const auto xs = beginnings(o.size.x, o.block.x, o.periodic[0]);
-  const auto ys = beginnings(o.size.y, o.block.y, o.periodic[1]);
-  const auto zs = beginnings(o.size.z, o.block.z, o.periodic[2]);
+  const auto xs = beginnings(o.size.x, o.block.x, o.periodic.x);
+  const auto ys = beginnings(o.size.y, o.block.y, o.periodic.y);
+  const auto zs = beginnings(o.size.z, o.block.z, o.periodic.z);
   const int span = std::max({o.block.x, o.block.y, o.block.z});
   const auto ts = beginnings(o.frames, span, o.loop);
+  const bool seesDiagonals = o.choice == LabelChoice::Resemblance;
   // Every third block along an axis first, then the ones next to these: few levels.
   struct At {
     int color, order;
@@ -99,173 +101,114 @@ void BlockPass::findBlocks() {
   std::sort(order.begin(), order.end(), [](const At& a, const At& b) {
     return std::pair(a.color, a.order) < std::pair(b.color, b.order);
   });
-  const Vec3i size = min(o.block, o.size);
-  const int frames = std::min(span, o.frames);
   blocks_.resize(order.size());
   parallelFor(0, order.size(), 4, [&](std::size_t begin, std::size_t end) {
+    progress_.check();
     for (std::size_t b = begin; b < end; ++b) {
       const At& at = order[b];
-      std::vector<std::int32_t>& cells = blocks_[b];
-      cells.reserve(static_cast<std::size_t>(volume(size)) * frames);
-      for (int i = 0; i < size.x; ++i) {
-        for (int j = 0; j < size.y; ++j) {
-          for (int k = 0; k < size.z; ++k) {
-            for (int t = 0; t < frames; ++t) {
-              Vec3i p = at.corner + Vec3i{i, j, k};
-              int frame = at.frame + t;
-              bool inside = true;
-              for (int axis = 0; axis < 3; ++axis) {
-                if (p[axis] < o.size[axis]) continue;
-                inside = inside && o.periodic[axis];
-                p[axis] -= o.size[axis];
-              }
-              if (frame >= o.frames) {
-                inside = inside && o.loop;
-                frame -= o.frames;
-              }
-              const int c = inside ? problem_.cell(problem_.position(p, frame)) : -1;
-              if (c >= 0) cells.push_back(c);
-            }
-          }
-        }
+      const CellBox box{at.corner, at.corner + min(o.block, o.size)};
+      std::vector<std::int32_t>& seen = blocks_[b].seen;
+      blocks_[b].cells = problem_.cellsIn(box, at.frame, at.frame + span);
+      if (!seesDiagonals) continue;
+      seen = problem_.cellsIn(box.grown(1), at.frame, at.frame + span);
+      if (!o.symmetry.any()) continue;
+      // A cell that has images looks around the first of them.
+      for (const std::int32_t c : blocks_[b].cells) {
+        const auto around = problem_.cellsAround(c, 1);
+        seen.insert(seen.end(), around.begin(), around.end());
       }
-      if (!std::is_sorted(cells.begin(), cells.end())) std::sort(cells.begin(), cells.end());
-      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     }
   });
-  std::erase_if(blocks_, [](const auto& cells) { return cells.empty(); });
+  std::erase_if(blocks_, [](const Block& block) { return block.cells.empty(); });
 }
 
-/// A block comes a level after the last earlier block that changes a cell of it or beside it.
+/// A block comes a level after the last earlier block that changes a cell of it, beside it, or that
+/// it looks at.
 void BlockPass::findLevels() {
   std::vector<int> changedAt(network_.cells, -1);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     int level = 0;
-    for (const std::int32_t c : blocks_[b]) {
-      level = std::max(level, changedAt[c] + 1);
-      network_.forEachNeighbor(c, [&](int n, int) { level = std::max(level, changedAt[n] + 1); });
+    const auto after = [&](int c) { level = std::max(level, changedAt[c] + 1); };
+    for (const std::int32_t c : blocks_[b].cells) {
+      after(c);
+      network_.forEachNeighbor(c, [&](int n, int) { after(n); });
     }
-    for (const std::int32_t c : blocks_[b]) changedAt[c] = level;
+    for (const std::int32_t c : blocks_[b].seen) after(c);
+    for (const std::int32_t c : blocks_[b].cells) changedAt[c] = level;
     if (level >= static_cast<int>(levels_.size())) levels_.resize(level + 1);
     levels_[level].push_back(static_cast<int>(b));
   }
 }
 
 /// Metropolis: whether a block's new labels are kept (Merrell 2007, section 4.2).
-bool BlockPass::accepted(int block, int round, const std::vector<Label>& fresh) const {
+bool BlockPass::accepted(const Region& region, int block, int round) const {
   if (!problem_.options().metropolis) return true;
   double gain = 0;  // log of f(new) / f(old); labels of weight 0 do not occur
-  for (std::size_t c = 0; c < fresh.size(); ++c) {
-    const std::int32_t cell = blocks_[block][c];
-    gain +=
-        std::log(problem_.weight(cell, fresh[c])) - std::log(problem_.weight(cell, labels_[cell]));
+  for (int i = 0; i < region.count(); ++i) {
+    const std::int32_t cell = region.cells()[i];
+    gain += std::log(problem_.weight(cell, region.label(i))) -
+            std::log(problem_.weight(cell, labels_[cell]));
   }
   return accept_.uniform(static_cast<std::uint64_t>(block), static_cast<std::uint32_t>(round)) <
          std::exp(gain);
 }
 
-BlockPass::Outcome BlockPass::modify(int block, int round, std::vector<Label>& fresh) {
-  Outcome outcome;
-  const auto& cells = blocks_[block];
-  const int count = static_cast<int>(cells.size());
-  NetworkPart& part = parts_.local();
-  part.select(cells);
-  LabelSets domains(network_.labels, count);
-  for (int c = 0; c < count; ++c) {
-    std::copy(base_[cells[c]].begin(), base_[cells[c]].end(), domains[c].begin());
-    part.restrictByLabels(c, domains[c], labels_);
-  }
-  Catalog catalog(part.network());
-  for (int c = 0; c < count; ++c) catalog.setDomain(c, domains[c]);
-  if (!catalog.propagateAll()) return outcome;  // cannot be: the old labels fit
-  for (int c = 0; c < count; ++c) {
-    std::copy(catalog.domain(c).begin(), catalog.domain(c).end(), domains[c].begin());
-  }
-
-  std::vector<std::int32_t> order(count);
-  for (int c = 0; c < count; ++c) order[c] = c;
-  // Numbers of draws: the blocks that cover a cell in a round are fewer than 32.
-  const std::uint32_t first =
-      (static_cast<std::uint32_t>(round) << 24) + (static_cast<std::uint32_t>(block % 32) << 19);
-  const LabelChooser::Placed placed = [&](int cell) {
-    const int c = part.local(cell);
-    if (c < 0) return static_cast<int>(labels_[cell]);
-    return catalog.decided(c) ? catalog.firstLabel(c) : -1;
+/// Labels a block anew; `labels_` changes where that succeeds and is accepted.
+BlockPass::Change BlockPass::modify(int block, int round) {
+  Change change;
+  Region& region = regions_.local();
+  const Region::Counts before = region.counts();
+  if (!region.takeBack(blocks_[block].cells, labels_, progress_))
+    return change;  // cannot be: the old fit
+  const std::uint64_t number = static_cast<std::uint64_t>(round) * blocks_.size() + block;
+  RegionChoice choice{chooser_.numbersFor(LabelChooser::Purpose::Blocks).fork(number)};
+  choice.choose = [&](const Random& random, int c, std::span<const LabelWord> set, int draw) {
+    return chooser_.choose(random, c, set, draw, region.placed());
   };
-  const auto choose = [&](int c, std::span<const LabelWord> set, int draw) {
-    return chooser_.choose(cells[c], set, first + static_cast<std::uint32_t>(draw), placed);
-  };
-  fresh.resize(count);
-  const auto take = [&] {
-    for (int c = 0; c < count; ++c) fresh[c] = static_cast<Label>(catalog.firstLabel(c));
-    outcome.changed = accepted(block, round, fresh);
-  };
-  std::int64_t contradictions = 0;
-  if (labelInOrder(catalog, order, choose, contradictions)) {
-    take();
-    outcome.contradictions = static_cast<int>(contradictions);
-    return outcome;
+  RegionEffort effort;  // not more than this: the old labels will do as well
+  effort.exactConflicts = std::min(effort.exactConflicts, problem_.options().budget);
+  if (region.relabel(effort, choice, progress_) == Outcome::Complete &&
+      accepted(region, block, round)) {
+    region.keep(labels_);
+    change.made = true;
   }
-  outcome.contradictions = static_cast<int>(contradictions) + 1;
-  const auto later = [&](int c, std::span<const LabelWord> set, int draw) {
-    return choose(c, set, 4096 + draw);
-  };
-  for (int c = 0; c < count; ++c) catalog.setDomain(c, domains[c]);
-  if (searchLabels(catalog, order, later, 100) == SearchOutcome::Solved) {
-    take();
-    return outcome;
-  }
-  ++outcome.exact;
-  ExactSolver exact(part.network(), domains);
-  for (int c = 0; c < count; ++c) exact.prefer(c, choose(c, domains[c], 8191));
-  constexpr std::int64_t kConflicts = 5000;  // the old labels will do as well
-  if (exact.solve({}, std::min(kConflicts, problem_.options().budget), progress_) ==
-      ExactSolver::Outcome::Solved) {
-    for (int c = 0; c < count; ++c) fresh[c] = static_cast<Label>(exact.label(c));
-    outcome.changed = accepted(block, round, fresh);
-  }
-  return outcome;
+  change.exact = region.counts().exact - before.exact;
+  change.contradictions = region.counts().contradictions - before.contradictions;
+  return change;
 }
 
 void BlockPass::modifyLevel(const std::vector<int>& blocks, int round) {
-  std::vector<Outcome> outcomes(blocks.size());
+  std::vector<Change> changes(blocks.size());
   parallelFor(0, blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
-    std::vector<Label> fresh;
-    for (std::size_t i = begin; i < end && !progress_.cancelled(); ++i) {
-      outcomes[i] = modify(blocks[i], round, fresh);
-      if (!outcomes[i].changed) continue;
-      const auto& cells = blocks_[blocks[i]];
-      for (std::size_t c = 0; c < cells.size(); ++c) labels_[cells[c]] = fresh[c];
-    }
+    for (std::size_t i = begin; i < end; ++i) changes[i] = modify(blocks[i], round);
   });
-  for (const Outcome& o : outcomes) {
+  for (const Change& change : changes) {
     ++statistics_.blocks;
-    statistics_.blocksKept += !o.changed;
-    statistics_.exact += o.exact;
-    statistics_.contradictions += o.contradictions;
+    statistics_.blocksKept += !change.made;
+    statistics_.exact += change.exact;
+    statistics_.contradictions += change.contradictions;
   }
 }
 
-Labelling BlockPass::run() {
+Labeling BlockPass::run() {
   findBlocks();
   findLevels();
   const double steps = static_cast<double>(levels_.size()) * problem_.options().rounds;
   double done = 0;
   for (int round = 0; round < problem_.options().rounds; ++round) {
     for (const auto& level : levels_) {
-      progress_.report("labelling blocks", done++ / steps);
+      progress_.report("labeling blocks", done++ / steps);
       modifyLevel(level, round);
-      if (progress_.cancelled()) return {ModelStatus::Cancelled, {}};
     }
   }
-  return {ModelStatus::Complete, std::move(labels_)};
+  return {Outcome::Complete, std::move(labels_)};
 }
 
 }  // namespace
 
-Labelling labelInBlocks(const ModelProblem& problem, const LabelSets& base,
-                        const LabelChooser& chooser, std::vector<Label> start,
-                        ModelStatistics& statistics, const Progress& progress) {
+Labeling labelInBlocks(const ModelProblem& problem, const LabelSets& base,
+                       const LabelChooser& chooser, std::vector<Label> start,
+                       ModelStatistics& statistics, const Progress& progress) {
   return BlockPass(problem, base, chooser, std::move(start), statistics, progress).run();
 }
 

@@ -10,16 +10,15 @@
 
 namespace exemplar {
 
-/// Modifies a consistent labelling in blocks that overlap by half along all axes (thesis, Algorithm
-/// 3.4): the cells of a block are set free, their labels restricted by what stands around it, and
-/// chosen anew; by plain propagation first, then by search with backjumping, then exactly. A block
-/// for which none of these comes to an end stays as it was, so the labelling is consistent
-/// throughout.
+/// Modifies a consistent labeling in blocks that overlap by half along all axes (thesis, Algorithm
+/// 3.4). Each block is a `Region`: taken back and labeled anew, by plain propagation first, then by
+/// search with backjumping, then exactly. A block for which all of these fail stays as it was, so
+/// the labeling is consistent throughout.
 ///
 /// Blocks that do not touch are modified in parallel; each sees exactly the blocks that come before
-/// it in a fixed order, so the bytes are the same at any number of threads.
-Labelling labelInBlocks(const ModelProblem& problem, const LabelSets& base,
-                        const LabelChooser& chooser, std::vector<Label> start,
-                        ModelStatistics& statistics, const Progress& progress);
+/// it in a fixed order, so the bytes are the same at any number of threads. Throws `Cancelled`.
+Labeling labelInBlocks(const ModelProblem& problem, const LabelSets& base,
+                       const LabelChooser& chooser, std::vector<Label> start,
+                       ModelStatistics& statistics, const Progress& progress);
 
 }  // namespace exemplar

@@ -70,7 +70,7 @@ void Catalog::setDomain(int cell, std::span<const LabelWord> labels) {
             domains_.begin() + static_cast<std::ptrdiff_t>(cell) * words_);
 }
 
-bool Catalog::propagateAll() {
+bool Catalog::propagateAll(const Progress& progress) {
   for (int c = 0; c < network_->cells; ++c) push(c, kNoSlot);
   for (int c = 0; c < network_->cells; ++c) {
     if (!empty(c)) continue;
@@ -80,7 +80,7 @@ bool Catalog::propagateAll() {
   }
   all_ = true;
   remembered_.assign(kRemembered * rememberedWords(), 0);
-  const bool sound = propagate();
+  const bool sound = propagate(progress);
   all_ = false;
   remembered_ = {};
   return sound;
@@ -150,23 +150,23 @@ void Catalog::forgetQueue() {
   for (; waiting_ > 0; --waiting_, ++head_) queuedFrom_[queue_[head_ & ringMask_]] = kIdle;
 }
 
-bool Catalog::propagate() {
+bool Catalog::propagate(const Progress& progress) {
   bool sound;
   switch (words_) {
     case 1:
-      sound = run<1>();
+      sound = run<1>(progress);
       break;
     case 2:
-      sound = run<2>();
+      sound = run<2>(progress);
       break;
     case 3:
-      sound = run<3>();
+      sound = run<3>(progress);
       break;
     case 4:
-      sound = run<4>();
+      sound = run<4>(progress);
       break;
     default:
-      sound = run<0>();
+      sound = run<0>(progress);
       break;
   }
   if (!sound) forgetQueue();
@@ -211,7 +211,7 @@ inline bool Catalog::update(int cell, int from, const LabelWord* set, const Labe
 }
 
 template <int W>
-bool Catalog::run() {
+bool Catalog::run(const Progress& progress) {
   const int words = W > 0 ? W : words_;
   const int slots = network_->slots;
   std::vector<LabelWord> set(words);  // where their number is not known before
@@ -220,7 +220,7 @@ bool Catalog::run() {
     ++head_, --waiting_;
     const std::uint8_t skip = queuedFrom_[cell];
     queuedFrom_[cell] = kIdle;
-    ++steps_;
+    if ((++steps_ & 0x3FFF) == 0) progress.check();
     const LabelWord* source = domains_.data() + static_cast<std::size_t>(cell) * words;
     LabelWord fixed[W > 0 ? W : 1];
     LabelWord* mine = W > 0 ? fixed : set.data();

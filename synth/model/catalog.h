@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/progress.h"
 #include "synth/model/network.h"
 
 namespace exemplar {
@@ -43,8 +44,8 @@ class Catalog {
   void setDomain(int cell, std::span<const LabelWord> labels);
   /// Lets a cell's neighbors hear, at the next `propagate`, of what it does not hold.
   void touch(int cell) { push(cell, kNoSlot); }
-  /// Touches every cell and propagates.
-  bool propagateAll();
+  /// Touches every cell and propagates. Throws `Cancelled`, as `propagate` does.
+  bool propagateAll(const Progress& progress = {});
 
   /// Keeps only the labels that are in `labels`; false where none is left.
   bool restrict(int cell, std::span<const LabelWord> labels);
@@ -52,7 +53,7 @@ class Catalog {
   bool remove(int cell, int label);
   /// Restores arc consistency; false where a cell has lost its last label: `contradiction` names
   /// it, and the sets between are as they were left: undo, or set them anew.
-  bool propagate();
+  bool propagate(const Progress& progress = {});
   int contradiction() const { return contradiction_; }
 
   /// A point to come back to. Nothing is kept before the first mark.
@@ -82,7 +83,7 @@ class Catalog {
   void save(int cell);
   void forgetQueue();
   template <int W>
-  bool run();
+  bool run(const Progress& progress);
   template <int W>
   bool update(int cell, int from, const LabelWord* set, const LabelWord* table, int slot);
   /// What a set supports along each slot, from the sets met before where it is one of these.

@@ -6,13 +6,18 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/cells.h"
+
 namespace exemplar {
 namespace {
 
-constexpr std::uint32_t kLabelStream = 0x4C424C31;  // the choice of labels
 /// How much a label counts that the examples show beside each of the neighbors, but not beside all.
 constexpr double kUnseen = 0.01;
 constexpr std::uint64_t kAnyLabel = 0xFFFF;
+
+double uniformOf(const Random& random, int cell, int draw) {
+  return random.uniform(static_cast<std::uint64_t>(cell), static_cast<std::uint32_t>(draw));
+}
 
 /// One of `labels` with chances in proportion to `weight(label)`, for `uniform` in [0, 1).
 template <class Weight>
@@ -33,9 +38,10 @@ int pick(std::span<const LabelWord> labels, double uniform, const Weight& weight
 
 }  // namespace
 
-LabelChooser::LabelChooser(const ModelProblem& problem, std::span<const LabelGrid> examples)
+LabelChooser::LabelChooser(const ModelProblem& problem, std::span<const LabelGrid> examples,
+                           const Progress& progress)
     : problem_(&problem),
-      random_(problem.options().seed, kLabelStream),
+      random_(problem.options().seed, stream::kLabelChoice),
       varies_(problem.weightVaries() && !problem.options().metropolis),
       neighbors_(problem.options().choice == LabelChoice::Neighbors) {
   const ModelOptions& o = problem.options();
@@ -47,10 +53,10 @@ LabelChooser::LabelChooser(const ModelProblem& problem, std::span<const LabelGri
   }
   if (neighbors_) {
     countShares();
-    countPlaces(examples);
+    countPlaces(examples, progress);
   }
   if (o.choice == LabelChoice::Resemblance) {
-    resemblance_ = std::make_unique<Resemblance>(problem, examples);
+    resemblance_ = std::make_unique<Resemblance>(problem, examples, progress);
   }
 }
 
@@ -78,14 +84,14 @@ void LabelChooser::countShares() {
   }
 }
 
-void LabelChooser::countPlaces(std::span<const LabelGrid> examples) {
+void LabelChooser::countPlaces(std::span<const LabelGrid> examples, const Progress& progress) {
   for (int which = 0; which < 8; ++which) {
     if (std::popcount(static_cast<unsigned>(which)) < 2) continue;  // shares tell of single ones
     std::vector<std::uint64_t> found;
     for (const LabelGrid& e : examples) {
-      for (std::size_t i = 0; i < e.cells.count(); ++i) {
-        const Vec3i p = e.cells.ijk(i);
-        std::uint64_t labels = e.cells.data()[i];
+      forEachCell(e.size(), [&](const Vec3i& p) {
+        if (p.x == 0 && p.y == 0) progress.check();
+        std::uint64_t labels = e.cells[p];
         bool inside = true;
         for (int axis = 0; axis < 3; ++axis) {
           Vec3i q = p;
@@ -95,7 +101,7 @@ void LabelChooser::countPlaces(std::span<const LabelGrid> examples) {
           labels |= (counts && inside ? e.cells[q] : kAnyLabel) << (16 * (axis + 1));
         }
         if (inside) found.push_back(labels);
-      }
+      });
     }
     std::sort(found.begin(), found.end());
     for (std::size_t i = 0; i < found.size();) {
@@ -157,24 +163,25 @@ void LabelChooser::weighByNeighbors(int cell, std::span<const LabelWord> labels,
   forEachLabel(labels, [&](int b) { weights[b] *= single[b]; });
 }
 
-int LabelChooser::choose(int cell, std::span<const LabelWord> labels, std::uint32_t draw) const {
-  const double uniform = random_.uniform(static_cast<std::uint64_t>(cell), draw);
+int LabelChooser::choose(const Random& random, int cell, std::span<const LabelWord> labels,
+                         int draw) const {
+  const double uniform = uniformOf(random, cell, draw);
   if (!varies_) return pick(labels, uniform, [&](int b) { return weights_[b]; });
   return pick(labels, uniform, [&](int b) { return frequencies_[b] * problem_->weight(cell, b); });
 }
 
-int LabelChooser::choose(int cell, std::span<const LabelWord> labels, std::uint32_t draw,
-                         const Placed& placed) const {
+int LabelChooser::choose(const Random& random, int cell, std::span<const LabelWord> labels,
+                         int draw, const Placed& placed) const {
   if (neighbors_) {
     std::vector<double> likely(weights_.size());
     forEachLabel(labels, [&](int b) { likely[b] = varies_ ? problem_->weight(cell, b) : own_[b]; });
     weighByNeighbors(cell, labels, placed, likely);
-    const double uniform = random_.uniform(static_cast<std::uint64_t>(cell), draw);
+    const double uniform = uniformOf(random, cell, draw);
     return pick(labels, uniform, [&](int b) { return likely[b]; });
   }
-  if (!resemblance_) return choose(cell, labels, draw);
+  if (!resemblance_) return choose(random, cell, labels, draw);
   const std::vector<double> likeness = resemblance_->likeness(cell, labels, placed);
-  const double uniform = random_.uniform(static_cast<std::uint64_t>(cell), draw);
+  const double uniform = uniformOf(random, cell, draw);
   return pick(labels, uniform, [&](int b) {
     return likeness[b] * (varies_ ? problem_->weight(cell, b) : weights_[b]);
   });

@@ -20,16 +20,26 @@ namespace exemplar {
 /// times the user's weights and maps (thesis, section 3.5.3).
 class LabelChooser {
  public:
-  LabelChooser(const ModelProblem& problem, std::span<const LabelGrid> examples);
+  LabelChooser(const ModelProblem& problem, std::span<const LabelGrid> examples,
+               const Progress& progress = {});
+
+  /// Random numbers to choose with, for each purpose its own: what is tried again there draws from
+  /// a fork for each attempt (`core/random.h`).
+  enum class Purpose : std::uint64_t { Repairs, Blocks, Limits, Start };
+  Random numbersFor(Purpose purpose) const {
+    return random_.fork(static_cast<std::uint64_t>(purpose));
+  }
+  /// The numbers of the one pass over the whole grid, in which every cell is decided once.
+  const Random& numbersForPass() const { return random_; }
 
   /// One of `labels` (at least one) for a cell of the problem's network. Each (cell, draw) is a
-  /// choice of its own. What stands around the cell does not count.
-  int choose(int cell, std::span<const LabelWord> labels, std::uint32_t draw) const;
+  /// choice of its own. What is around the cell does not count.
+  int choose(const Random& random, int cell, std::span<const LabelWord> labels, int draw) const;
 
   /// The label in place at a cell of the network, or -1.
   using Placed = std::function<int(int cell)>;
-  /// The same, weighted by what stands around the cell where the request asks for it.
-  int choose(int cell, std::span<const LabelWord> labels, std::uint32_t draw,
+  /// The same, weighted by what is around the cell where the request asks for it.
+  int choose(const Random& random, int cell, std::span<const LabelWord> labels, int draw,
              const Placed& placed) const;
 
  private:
@@ -46,7 +56,7 @@ class LabelChooser {
   };
 
   void countShares();
-  void countPlaces(std::span<const LabelGrid> examples);
+  void countPlaces(std::span<const LabelGrid> examples, const Progress& progress);
   void weighByNeighbors(int cell, std::span<const LabelWord> labels, const Placed& placed,
                         std::vector<double>& weights) const;
 

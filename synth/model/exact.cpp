@@ -114,7 +114,8 @@ void ExactSolver::Parts::link(int cell, int neighbor, const LabelSets& table) {
   }
 }
 
-ExactSolver::ExactSolver(const LabelNetwork& network, const LabelSets& domains)
+ExactSolver::ExactSolver(const LabelNetwork& network, const LabelSets& domains,
+                         const Progress& progress)
     : parts_(std::make_unique<Parts>(network, domains)) {
   Parts& p = *parts_;
   p.solver.set("quiet", 1);
@@ -131,6 +132,7 @@ ExactSolver::ExactSolver(const LabelNetwork& network, const LabelSets& domains)
     p.exactlyOne(p.firstVariable[c], labelsIn(p.domains[c]));
   }
   for (int c = 0; c < network.cells; ++c) {
+    if (c % 256 == 0) progress.check();
     network.forEachNeighbor(c, [&](int n, int relation) {
       const LabelSets& table = network.support[relation];
       if (p.firstVariable[c] == 0) {
@@ -199,8 +201,8 @@ void ExactSolver::demandOne(std::span<const std::pair<int, int>> some,
   parts_->solver.add(0);
 }
 
-ExactSolver::Outcome ExactSolver::solve(std::span<const int> demands, std::int64_t conflicts,
-                                        const Progress& progress) {
+Outcome ExactSolver::solve(std::span<const int> demands, std::int64_t conflicts,
+                           const Progress& progress) {
   Parts& p = *parts_;
   Cancel cancel(progress);
   p.solver.connect_terminator(&cancel);
@@ -208,8 +210,9 @@ ExactSolver::Outcome ExactSolver::solve(std::span<const int> demands, std::int64
   p.solver.limit("conflicts", static_cast<int>(std::min<std::int64_t>(conflicts, 1 << 30)));
   const int status = p.solver.solve();
   p.solver.disconnect_terminator();
+  progress.check();
   if (status == 20) return Outcome::Impossible;
-  if (status != 10) return Outcome::GaveUp;
+  if (status != 10) return Outcome::Unfinished;
 
   p.labels.assign(p.network.cells, -1);
   for (int c = 0; c < p.network.cells; ++c) {
@@ -219,7 +222,7 @@ ExactSolver::Outcome ExactSolver::solve(std::span<const int> demands, std::int64
       ++v;
     });
   }
-  return Outcome::Solved;
+  return Outcome::Complete;
 }
 
 int ExactSolver::label(int cell) const { return parts_->labels[cell]; }

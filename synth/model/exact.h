@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/outcome.h"
 #include "core/progress.h"
 #include "synth/model/network.h"
 
@@ -23,10 +24,8 @@ namespace exemplar {
 /// consistency. Labels that allow the same at a neighbor share the clause. Deterministic.
 class ExactSolver {
  public:
-  enum class Outcome { Solved, Impossible, GaveUp };
-
-  /// `domains` holds the labels possible at each cell, none of them empty.
-  ExactSolver(const LabelNetwork& network, const LabelSets& domains);
+  /// `domains` holds the labels possible at each cell, none of them empty. Throws `Cancelled`.
+  ExactSolver(const LabelNetwork& network, const LabelSets& domains, const Progress& progress = {});
   ~ExactSolver();
   ExactSolver(const ExactSolver&) = delete;
   ExactSolver& operator=(const ExactSolver&) = delete;
@@ -43,10 +42,11 @@ class ExactSolver {
   void demandOne(std::span<const std::pair<int, int>> some,
                  std::span<const std::pair<int, int>> orNot);
 
-  /// Solves with the demands switched on, meeting at most `conflicts` conflicts.
+  /// Solves with the demands switched on: Complete, or Impossible, or Unfinished after `conflicts`
+  /// conflicts. Throws `Cancelled` within a fraction of a second.
   Outcome solve(std::span<const int> demands, std::int64_t conflicts,
                 const Progress& progress = {});
-  /// After Solved: the label of a cell.
+  /// After Complete: the label of a cell.
   int label(int cell) const;
   /// After Impossible: whether the proof made use of a demand.
   bool used(int demand) const;

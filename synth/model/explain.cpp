@@ -66,6 +66,7 @@ class DemandSet {
 /// How many sets of demands are tried at most: with hundreds of pins that all have a part in the
 /// conflict the set may stay larger than need be.
 constexpr int kMostTests = 250;
+constexpr const char* kStage = "finding a smallest conflict";
 /// The exact solver's conflicts for one such set, and for all: leaving a demand in does no harm.
 constexpr std::int64_t kConflictsPerTest = 1000, kConflictsInAll = 30000;
 
@@ -76,7 +77,8 @@ std::vector<int> smallest(std::vector<int> demands, const Progress& progress, co
   int tests = 0;
   for (std::size_t piece = std::max<std::size_t>(1, demands.size() / 2);;
        piece = std::max<std::size_t>(1, std::min(piece, demands.size()) / 2)) {
-    for (std::size_t at = 0; at < demands.size() && !progress.cancelled();) {
+    for (std::size_t at = 0; at < demands.size();) {
+      progress.report(kStage, static_cast<double>(tests) / kMostTests);
       if (++tests > kMostTests) return demands;
       const std::size_t end = std::min(demands.size(), at + piece);
       std::vector<int> fewer(demands);
@@ -106,10 +108,11 @@ std::vector<int> smallestExactly(DemandSet& set) {
   for (int c = 0; c < network.cells; ++c) {
     std::copy(set.catalog().domain(c).begin(), set.catalog().domain(c).end(), free[c].begin());
   }
-  ExactSolver exact(network, free);
+  ExactSolver exact(network, free, set.progress());
   std::vector<int> number(set.all().size());
   for (std::size_t i = 0; i < set.all().size(); ++i) {
     number[i] = exact.newDemand();
+    set.progress().check();
     const LabelSets allowed = problem.domains(set.only(std::span(&set.all()[i], 1)));
     for (int c = 0; c < network.cells; ++c) exact.addToDemand(number[i], c, allowed[c]);
   }
@@ -121,11 +124,11 @@ std::vector<int> smallestExactly(DemandSet& set) {
       const auto at = std::lower_bound(set.all().begin(), set.all().end(), d) - set.all().begin();
       on.push_back(number[at]);
     }
-    const auto outcome = spent > kConflictsInAll ? ExactSolver::Outcome::GaveUp
-                                                 : exact.solve(on, conflicts, set.progress());
+    const auto outcome =
+        spent > kConflictsInAll ? Outcome::Unfinished : exact.solve(on, conflicts, set.progress());
     conflicts = std::min(problem.options().budget, kConflictsPerTest);
-    if (outcome == ExactSolver::Outcome::GaveUp) spent += conflicts;
-    if (outcome != ExactSolver::Outcome::Impossible) return std::nullopt;
+    if (outcome == Outcome::Unfinished) spent += conflicts;
+    if (outcome != Outcome::Impossible) return std::nullopt;
     std::vector<int> used;
     for (std::size_t i = 0; i < demands.size(); ++i) {
       if (exact.used(on[i])) used.push_back(demands[i]);

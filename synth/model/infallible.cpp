@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 
+#include "core/cells.h"
 #include "synth/model/catalog.h"
 #include "synth/model/network.h"
 
@@ -51,23 +52,17 @@ LabelNetwork boxNetwork(const Adjacency& adjacency, const std::vector<LabelSets>
   n.support = support;
   n.neighbor.assign(static_cast<std::size_t>(n.cells) * n.slots, n.cells);
   const auto index = [&](const Vec3i& p) { return (p.x * size.y + p.y) * size.z + p.z; };
-  for (int i = 0; i < size.x; ++i) {
-    for (int j = 0; j < size.y; ++j) {
-      for (int k = 0; k < size.z; ++k) {
-        const Vec3i p{i, j, k};
-        for (std::size_t r = 0; r < adjacency.rules.size(); ++r) {
-          const CellOffset& o = adjacency.rules[r].offset;
-          for (int s = 0; s < 2; ++s) {
-            const Vec3i q = s ? p - Vec3i{o.x, o.y, o.z} : p + Vec3i{o.x, o.y, o.z};
-            if (q.x < 0 || q.y < 0 || q.z < 0 || q.x >= size.x || q.y >= size.y || q.z >= size.z) {
-              continue;
-            }
-            n.neighbor[static_cast<std::size_t>(index(p)) * n.slots + 2 * r + s] = index(q);
-          }
-        }
+  const CellBox box = CellBox::of(size);
+  forEachCell(box, [&](const Vec3i& p) {
+    for (std::size_t r = 0; r < adjacency.rules.size(); ++r) {
+      const CellOffset& o = adjacency.rules[r].offset;
+      for (int s = 0; s < 2; ++s) {
+        const Vec3i q = s ? p - Vec3i{o.x, o.y, o.z} : p + Vec3i{o.x, o.y, o.z};
+        if (!box.contains(q)) continue;
+        n.neighbor[static_cast<std::size_t>(index(p)) * n.slots + 2 * r + s] = index(q);
       }
     }
-  }
+  });
   return n;
 }
 
@@ -76,7 +71,8 @@ class RegionList {
  public:
   /// A region reaches `after` beyond its cell, where the box does.
   RegionList(const Adjacency& adjacency, const std::vector<LabelSets>& support, const Vec3i& size,
-             const Vec3i& last, const Vec3i& after, std::int64_t& count, std::int64_t most)
+             const Vec3i& last, const Vec3i& after, std::int64_t& count, std::int64_t most,
+             const Progress& progress)
       : adjacency_(adjacency),
         size_(size),
         after_(after),
@@ -84,6 +80,7 @@ class RegionList {
         part_(network_),
         count_(count),
         most_(most),
+        progress_(progress),
         all_(adjacency.labelCount, 1),
         labels_(network_.cells, -1) {
     for (int b = 0; b < adjacency.labelCount; ++b) {
@@ -131,6 +128,7 @@ class RegionList {
 
   bool extend(int cell) {
     if (++count_ > most_) return false;
+    if (count_ % 64 == 0) progress_.check();
     const LabelSets set = possible(cell);
     const bool none = labelsIn(set[0]) == 0;
     if (cell == last_) return !none;
@@ -151,6 +149,7 @@ class RegionList {
   NetworkPart part_;
   std::int64_t& count_;
   std::int64_t most_;
+  const Progress& progress_;
   LabelSets all_;
   std::vector<int> labels_;
   int last_;
@@ -208,7 +207,7 @@ bool meetsStatement311(const Adjacency& adjacency) {
 }
 
 InfallibleProof proveInfallible(const Adjacency& adjacency, const Vec3i& region,
-                                std::int64_t mostRegions) {
+                                std::int64_t mostRegions, const Progress& progress) {
   InfallibleProof proof;
   proof.region = region;
   if (!onlyAxes(adjacency)) return proof;
@@ -231,7 +230,8 @@ InfallibleProof proveInfallible(const Adjacency& adjacency, const Vec3i& region,
         const Vec3i last{x[0], y[0], z[0]};
         const Vec3i size{x[0] + x[1] + 1, y[0] + y[1] + 1, z[0] + z[1] + 1};
         const Vec3i after = max(region - Vec3i{2, 2, 2}, Vec3i{0, 0, 0});
-        RegionList list(adjacency, support, size, last, after, proof.regions, mostRegions);
+        RegionList list(adjacency, support, size, last, after, proof.regions, mostRegions,
+                        progress);
         if (list.proved()) continue;
         proof.verdict = proof.regions > mostRegions ? InfallibleProof::Verdict::TooMany
                                                     : InfallibleProof::Verdict::NotProved;
@@ -243,7 +243,8 @@ InfallibleProof proveInfallible(const Adjacency& adjacency, const Vec3i& region,
   return proof;
 }
 
-RuleSummary summarizeRules(const Adjacency& adjacency, std::int64_t mostRegions) {
+RuleSummary summarizeRules(const Adjacency& adjacency, std::int64_t mostRegions,
+                           const Progress& progress) {
   RuleSummary summary;
   for (const std::int64_t f : adjacency.frequency) summary.labels += f > 0;
   for (const PairRule& r : adjacency.rules) {
@@ -255,10 +256,13 @@ RuleSummary summarizeRules(const Adjacency& adjacency, std::int64_t mostRegions)
   const auto region = [&](int x, int y, int z) {
     return Vec3i{rules[0] < 0 ? 1 : x, rules[1] < 0 ? 1 : y, rules[2] < 0 ? 1 : z};
   };
-  for (const Vec3i& r : {region(2, 2, 2), region(2, 3, 2), region(2, 2, 3), region(2, 3, 3),
-                         region(3, 3, 2), region(2, 4, 2)}) {
-    if (r == summary.proof.region) continue;
-    summary.proof = proveInfallible(adjacency, r, mostRegions);
+  const std::array<Vec3i, 6> regions{region(2, 2, 2), region(2, 3, 2), region(2, 2, 3),
+                                     region(2, 3, 3), region(3, 3, 2), region(2, 4, 2)};
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    progress.report("proving that propagation cannot fail",
+                    static_cast<double>(i) / static_cast<double>(regions.size()));
+    if (regions[i] == summary.proof.region) continue;
+    summary.proof = proveInfallible(adjacency, regions[i], mostRegions, progress);
     if (summary.proof.verdict == InfallibleProof::Verdict::Proved) break;
   }
   return summary;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/progress.h"
 #include "core/vec.h"
 #include "voxelize/adjacency.h"
 
@@ -35,7 +36,8 @@ struct InfallibleProof {
 /// finds out whether the new cell always keeps a label. Regions cut off by the grid's sides count
 /// too. Components of `region` are 2 or more; 1 along an axis along which the example is flat.
 InfallibleProof proveInfallible(const Adjacency& adjacency, const Vec3i& region,
-                                std::int64_t mostRegions = 1'000'000);
+                                std::int64_t mostRegions = 1'000'000,
+                                const Progress& progress = {});
 
 /// What `exemplar info` tells of an example's rules.
 struct RuleSummary {
@@ -49,6 +51,7 @@ struct RuleSummary {
 };
 
 /// Tries regions of 2 x 2 x 2 cells, then longer ones along y and z.
-RuleSummary summarizeRules(const Adjacency& adjacency, std::int64_t mostRegions = 200'000);
+RuleSummary summarizeRules(const Adjacency& adjacency, std::int64_t mostRegions = 200'000,
+                           const Progress& progress = {});
 
 }  // namespace exemplar

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "synth/model/catalog.h"
-#include "synth/model/search.h"
+#include "core/disjoint_sets.h"
+#include "core/random.h"
+#include "synth/model/region.h"
 
 namespace exemplar {
 namespace {
 
-constexpr std::uint32_t kLimitStream = 0x4C424C33;  // where a limit is worked on
 constexpr int kMostTriesWithoutGain = 2000;
 
 std::vector<bool> membership(const std::vector<Label>& set, int labels) {
@@ -52,41 +52,34 @@ std::vector<std::int32_t> Limits::strays(const std::vector<bool>& set,
                                          const std::vector<Label>& labels) const {
   // Pieces are joined through faces of the whole grid, images included.
   const ModelOptions& o = problem_.options();
-  std::vector<std::int32_t> piece(problem_.positions(), -1);
-  std::vector<std::int64_t> sizes, stack;
   const auto inSet = [&](std::int64_t at) {
     const int c = problem_.cell(at);
     return c >= 0 && set[problem_.labelAt(at, labels[c])];
   };
-  for (std::int64_t first = 0; first < problem_.positions(); ++first) {
-    if (piece[first] >= 0 || !inSet(first)) continue;
-    const int number = static_cast<int>(sizes.size());
-    sizes.push_back(0);
-    piece[first] = number;
-    stack.push_back(first);
-    while (!stack.empty()) {
-      const std::int64_t at = stack.back();
-      stack.pop_back();
-      ++sizes[number];
-      const Vec3i p = problem_.cellAt(at);
-      for (int side = 0; side < 6; ++side) {
-        Vec3i q = p;
-        const int axis = side / 2;
-        q[axis] += side % 2 ? 1 : -1;
-        if (o.periodic[axis]) q[axis] = (q[axis] + o.size[axis]) % o.size[axis];
-        if (q[axis] < 0 || q[axis] >= o.size[axis]) continue;
-        const std::int64_t there = problem_.position(q, problem_.frameAt(at));
-        if (piece[there] >= 0 || !inSet(there)) continue;
-        piece[there] = number;
-        stack.push_back(there);
+  DisjointSets pieces(static_cast<std::size_t>(problem_.positions()));
+  std::vector<std::int64_t> members;
+  for (std::int64_t at = 0; at < problem_.positions(); ++at) {
+    if (!inSet(at)) continue;
+    members.push_back(at);
+    const Vec3i p = problem_.cellAt(at);
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3i q = p;
+      ++q[axis];
+      if (q[axis] == o.size[axis] && o.periodic[axis]) q[axis] = 0;
+      if (q[axis] == o.size[axis]) continue;
+      const std::int64_t there = problem_.position(q, problem_.frameAt(at));
+      if (inSet(there)) {
+        pieces.join(static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(there));
       }
     }
   }
+  const auto pieceOf = [&](std::int64_t at) { return pieces.find(static_cast<std::uint32_t>(at)); };
+  std::vector<std::int64_t> size(static_cast<std::size_t>(problem_.positions()), 0);
+  for (const std::int64_t at : members) ++size[pieceOf(at)];
+  const auto largest = std::max_element(size.begin(), size.end()) - size.begin();
   std::vector<std::int32_t> cells;
-  if (sizes.size() < 2) return cells;
-  const auto largest = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
-  for (std::int64_t at = 0; at < problem_.positions(); ++at) {
-    if (piece[at] >= 0 && piece[at] != largest) cells.push_back(problem_.cell(at));
+  for (const std::int64_t at : members) {
+    if (pieceOf(at) != largest) cells.push_back(problem_.cell(at));
   }
   return cells;
 }
@@ -122,105 +115,72 @@ Limits::Broken Limits::look(const std::vector<Label>& labels) const {
   return broken;
 }
 
-/// The cells within `reach` of a cell, ascending.
-std::vector<std::int32_t> cellsAround(const ModelProblem& problem, int cell, int reach) {
-  const ModelOptions& o = problem.options();
-  const std::int64_t at = problem.positionOf(cell);
-  const Vec3i p = problem.cellAt(at);
-  const Vec3i low = max(p - Vec3i{reach, reach, reach}, Vec3i{0, 0, 0});
-  const Vec3i high = min(p + Vec3i{reach, reach, reach}, o.size - Vec3i{1, 1, 1});
-  std::vector<std::int32_t> cells;
-  for (int i = low.x; i <= high.x; ++i) {
-    for (int j = low.y; j <= high.y; ++j) {
-      for (int k = low.z; k <= high.z; ++k) {
-        for (int t = 0; t < o.frames; ++t) {
-          if (std::abs(t - problem.frameAt(at)) > reach) continue;
-          const int c = problem.cell(problem.position({i, j, k}, t));
-          if (c >= 0) cells.push_back(c);
-        }
-      }
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
 }  // namespace
 
 std::int64_t limitsMissed(const ModelProblem& problem, const std::vector<Label>& labels) {
   return Limits(problem).look(labels).missed;
 }
 
-Labelling meetLimits(const ModelProblem& problem, const LabelSets& base,
-                     const LabelChooser& chooser, std::vector<Label> labels,
-                     ModelStatistics& statistics, const Progress& progress) {
+Labeling meetLimits(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+                    std::vector<Label> labels, ModelStatistics& statistics,
+                    const Progress& progress) {
   const LabelNetwork& network = problem.network();
   const Limits limits(problem);
-  const Random random(problem.options().seed, kLimitStream);
   Limits::Broken broken = limits.look(labels);
-  if (broken.missed == 0) return {ModelStatus::Complete, std::move(labels)};
+  if (broken.missed == 0) return {Outcome::Complete, std::move(labels)};
 
-  NetworkPart part(network);
+  const Random places(problem.options().seed, stream::kLimits);
+  Region region(network, base);
+  const RegionEffort effort{
+      .passes = 1, .searches = 1, .searchConflicts = 100, .exactConflicts = 0};
+  LabelSets wanted(network.labels, 1);
+  std::vector<std::int32_t> which;
   const std::int64_t first = broken.missed;
   int withoutGain = 0;
   for (std::int64_t tries = 0;
        tries < problem.options().budget && withoutGain < kMostTriesWithoutGain; ++tries) {
-    if (progress.cancelled()) return {ModelStatus::Cancelled, {}};
-    progress.report("meeting limits", 1 - static_cast<double>(broken.missed) / first);
+    progress.report("meeting limits", 1 - static_cast<double>(broken.missed) / double(first));
     ++withoutGain;
     const std::uint64_t number = static_cast<std::uint64_t>(tries);
     const int target =
         broken.cells.empty()
-            ? static_cast<int>(random.below(static_cast<std::uint32_t>(network.cells), number))
-            : broken.cells[random.below(static_cast<std::uint32_t>(broken.cells.size()), number)];
-    const int reach = 2 + static_cast<int>(random.below(6, number, 1));
-    const auto cells = cellsAround(problem, target, reach);
-    part.select(cells);
-    const int count = static_cast<int>(cells.size());
-    Catalog catalog(part.network());
-    LabelSets domains(network.labels, count);
-    for (int c = 0; c < count; ++c) {
-      std::copy(base[cells[c]].begin(), base[cells[c]].end(), domains[c].begin());
-      part.restrictByLabels(c, domains[c], labels);
-      catalog.setDomain(c, domains[c]);
-    }
-    if (!catalog.propagateAll()) continue;
+            ? static_cast<int>(places.below(static_cast<std::uint32_t>(network.cells), number))
+            : broken.cells[places.below(static_cast<std::uint32_t>(broken.cells.size()), number)];
+    const int reach = 2 + static_cast<int>(places.below(6, number, 1));
+    if (!region.takeBack(problem.cellsAround(target, reach), labels, progress)) continue;
 
     // Put one of the labels in, or keep them out: of the whole region half of the time, else of
     // the one cell.
-    LabelSets wanted(network.labels, 1);
+    std::fill_n(wanted.data(), wanted.words(), LabelWord{0});
     for (int b = 0; b < network.labels; ++b) {
       if ((*broken.set)[b] == broken.tooFew) addLabel(wanted[0], b);
     }
-    const bool everywhere = !broken.tooFew && random.below(2, number, 2) == 0;
-    catalog.mark();
-    bool sound = true;
-    for (int c = 0; c < count && sound; ++c) {
-      if (!everywhere && cells[c] != target) continue;
-      sound = catalog.restrict(c, wanted[0]);
+    const bool everywhere = !broken.tooFew && places.below(2, number, 2) == 0;
+    which.clear();
+    for (int i = 0; i < region.count(); ++i) {
+      if (everywhere || region.cells()[i] == target) which.push_back(i);
     }
-    if (!sound || !catalog.propagate()) continue;
-    catalog.commit();
+    if (!region.demand(which, wanted[0])) continue;
 
-    std::vector<std::int32_t> order(count);
-    for (int c = 0; c < count; ++c) order[c] = c;
-    const std::uint32_t draws = 0x80000000u + static_cast<std::uint32_t>(tries) * 256u;
-    const auto choose = [&](int c, std::span<const LabelWord> set, int draw) {
-      return chooser.choose(cells[c], set, draws + static_cast<std::uint32_t>(draw));
+    RegionChoice choice{chooser.numbersFor(LabelChooser::Purpose::Limits).fork(number)};
+    choice.choose = [&](const Random& random, int c, std::span<const LabelWord> set, int draw) {
+      return chooser.choose(random, c, set, draw, region.placed());
     };
-    if (!labelInOrder(catalog, order, choose, statistics.contradictions)) continue;
+    if (region.relabel(effort, choice, progress) != Outcome::Complete) continue;
     ++statistics.repairs;
-    std::vector<Label> changed = labels;
-    for (int c = 0; c < count; ++c) changed[cells[c]] = static_cast<Label>(catalog.firstLabel(c));
-    Limits::Broken now = limits.look(changed);
-    if (now.missed > broken.missed) continue;
+    region.keep(labels);
+    Limits::Broken now = limits.look(labels);
+    if (now.missed > broken.missed) {
+      region.undo(labels);
+      continue;
+    }
     if (now.missed < broken.missed) withoutGain = 0;
-    labels = std::move(changed);
     broken = std::move(now);
-    if (broken.missed == 0) return {ModelStatus::Complete, std::move(labels)};
+    if (broken.missed == 0) break;
   }
-  return {ModelStatus::Unfinished, {}};
+  statistics.contradictions += region.counts().contradictions;
+  if (broken.missed > 0) return {Outcome::Unfinished, {}};
+  return {Outcome::Complete, std::move(labels)};
 }
 
 }  // namespace exemplar

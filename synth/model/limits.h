@@ -10,16 +10,16 @@
 
 namespace exemplar {
 
-/// How far a labelling is from a request's limits on counts and from connectedness: labels too many
+/// How far a labeling is from a request's limits on counts and from connectedness: labels too many
 /// or too few, and cells outside the largest piece of each connected set. 0: all are met.
 std::int64_t limitsMissed(const ModelProblem& problem, const std::vector<Label>& labels);
 
-/// Changes a consistent labelling until limits on counts and connectedness are met: a region where
-/// one is broken is labelled anew, with the labels in question left out or put in, and kept where
-/// that brings the labelling nearer. Unfinished after `ModelOptions::budget` tries, or two thousand
-/// without a gain. Each labelling on the way is consistent.
-Labelling meetLimits(const ModelProblem& problem, const LabelSets& base,
-                     const LabelChooser& chooser, std::vector<Label> labels,
-                     ModelStatistics& statistics, const Progress& progress);
+/// Changes a consistent labeling until limits on counts and connectedness are met: a `Region` where
+/// one is broken is labeled anew, with the labels in question left out or put in, and kept unless
+/// the limits are then missed by more. Unfinished after `ModelOptions::budget` tries, or two
+/// thousand without a gain. Each labeling on the way is consistent. Throws `Cancelled`.
+Labeling meetLimits(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+                    std::vector<Label> labels, ModelStatistics& statistics,
+                    const Progress& progress);
 
 }  // namespace exemplar

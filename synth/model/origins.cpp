@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/parallel.h"
 
@@ -27,17 +28,11 @@ struct SurroundingsHash {
   }
 };
 
-Vec3i step(int side) {
-  Vec3i d;
-  d[side / 2] = side % 2 ? 1 : -1;
-  return d;
-}
-
 Surroundings surroundings(const LabelGrid& grid, const Vec3i& p) {
   Surroundings s;
   s[0] = grid.cells[p];
   for (int side = 0; side < 6; ++side) {
-    const Vec3i q = p + step(side);
+    const Vec3i q = p + kFaceSteps[side];
     s[side + 1] = grid.cells.contains(q) ? grid.cells[q] : kOutside;
   }
   return s;
@@ -51,8 +46,10 @@ int agreement(const Surroundings& a, const Surroundings& b) {
 
 }  // namespace
 
-Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples) {
+Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples,
+                    const Progress& progress) {
   if (examples.size() > 255) throw InputError("origins hold 255 examples at most");
+  progress.report("finding origins", 0);
   struct Place {
     Surroundings around;
     Origin first;
@@ -65,12 +62,12 @@ Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples) 
       throw InputError("an example is longer than 32767 cells");
     }
     places.resize(std::max<std::size_t>(places.size(), examples[e].labels.size()));
-    for (std::size_t i = 0; i < examples[e].cells.count(); ++i) {
-      const Vec3i p = examples[e].cells.ijk(i);
+    forEachCell(n, [&](const Vec3i& p) {
+      if (p.x == 0 && p.y == 0) progress.check();
       const Surroundings s = surroundings(examples[e], p);
       const Origin origin(p, static_cast<int>(e));
       if (known.try_emplace(s, origin).second) places[s[0]].push_back({s, origin});
-    }
+    });
   }
 
   // The example's cell with the same label whose surroundings agree most.
@@ -100,6 +97,7 @@ Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples) 
                   const int y0 = static_cast<int>(part) * kRows, y1 = std::min(n.y, y0 + kRows);
                   std::unordered_map<Surroundings, Origin, SurroundingsHash> unknown;
                   for (int k = 0; k < n.z; ++k) {
+                    progress.check();
                     for (int j = y0; j < y1; ++j) {
                       for (int i = 0; i < n.x; ++i) {
                         const Vec3i p{i, j, k};
@@ -115,11 +113,11 @@ Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples) 
                         const int most =
                             agreement(here, surroundings(examples[best.example], best.cell()));
                         for (int side = 0; side < 6; side += 2) {
-                          const Vec3i q = p + step(side);
+                          const Vec3i q = p + kFaceSteps[side];
                           if (q.x < 0 || q.y < y0 || q.z < 0) continue;
                           const Origin& near = origins[q];
                           const LabelGrid& example = examples[near.example];
-                          const Vec3i there = near.cell() - step(side);
+                          const Vec3i there = near.cell() - kFaceSteps[side];
                           if (!example.cells.contains(there) || example.cells[there] != here[0])
                             continue;
                           if (agreement(here, surroundings(example, there)) < most) continue;

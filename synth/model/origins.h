@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/origin.h"
+#include "core/progress.h"
 #include "voxelize/label_grid.h"
 
 namespace exemplar {
@@ -17,6 +18,7 @@ namespace exemplar {
 ///
 /// Throws `InputError` for a label that no example has, an example longer than 32,767 cells or more
 /// than 255 examples: origins do not hold these.
-Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples);
+Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples,
+                    const Progress& progress = {});
 
 }  // namespace exemplar

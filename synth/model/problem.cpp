@@ -18,6 +18,8 @@ std::string words(const Vec3i& v) {
   return std::to_string(v.x) + " x " + std::to_string(v.y) + " x " + std::to_string(v.z);
 }
 
+constexpr int kCellsBetweenChecks = 4096;  // whether the work was cancelled
+
 CellOffset opposite(const CellOffset& o) { return {-o.x, -o.y, -o.z, -o.t}; }
 
 /// A rule whose pairs hold under every symmetry of a group, as support tables; where the group
@@ -85,14 +87,15 @@ SymmetricRules symmetricRules(const Adjacency& adjacency, const SymmetryGroup& g
 
 }  // namespace
 
-ModelProblem::ModelProblem(const Adjacency& adjacency, const ModelOptions& options)
+ModelProblem::ModelProblem(const Adjacency& adjacency, const ModelOptions& options,
+                           const Progress& progress)
     : adjacency_(&adjacency), options_(&options) {
   checkOptions();
   if (options.symmetry.any()) {
     symmetry_ = SymmetryGroup(options.symmetry, options.size, adjacency.labelCount);
   }
-  buildCells();
-  buildNetwork();
+  buildCells(progress);
+  buildNetwork(progress);
 }
 
 void ModelProblem::checkOptions() const {
@@ -206,12 +209,56 @@ Vec3i ModelProblem::cellAt(std::int64_t position) const {
   return {static_cast<int>(p / n.y), static_cast<int>(p % n.y), k};
 }
 
+std::vector<std::int32_t> ModelProblem::cellsIn(const CellBox& box, int first, int last) const {
+  const ModelOptions& o = *options_;
+  const auto indices = [](int begin, int end, int n, bool around) {
+    std::vector<int> list;
+    if (!around || end - begin >= n) {
+      begin = around ? 0 : std::max(begin, 0);
+      end = around ? n : std::min(end, n);
+    }
+    for (int i = begin; i < end; ++i) list.push_back(((i % n) + n) % n);
+    std::sort(list.begin(), list.end());
+    return list;
+  };
+  const auto xs = indices(box.begin.x, box.end.x, o.size.x, o.periodic.x);
+  const auto ys = indices(box.begin.y, box.end.y, o.size.y, o.periodic.y);
+  const auto zs = indices(box.begin.z, box.end.z, o.size.z, o.periodic.z);
+  const auto ts = indices(first, last, o.frames, o.loop);
+  std::vector<std::int32_t> cells;
+  cells.reserve(xs.size() * ys.size() * zs.size() * ts.size());
+  for (const int x : xs) {
+    for (const int y : ys) {
+      for (const int z : zs) {
+        for (const int t : ts) {
+          const int c = cell(position({x, y, z}, t));
+          if (c >= 0) cells.push_back(c);
+        }
+      }
+    }
+  }
+  // Images of one cell come several times, and in any order.
+  if (!imageOf_.empty()) {
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  }
+  return cells;
+}
+
+std::vector<std::int32_t> ModelProblem::cellsAround(int cell, int reach) const {
+  const std::int64_t at = positionOf_[cell];
+  const Vec3i p = cellAt(at);
+  const int frame = frameAt(at);
+  const CellBox box{p, p + Vec3i{1, 1, 1}};
+  return cellsIn(box.grown(reach), frame - reach, frame + reach + 1);
+}
+
 std::int64_t ModelProblem::offsetPosition(std::int64_t from, const CellOffset& offset) const {
   const ModelOptions& o = *options_;
   const Vec3i p = cellAt(from);
   int q[4] = {p.x + offset.x, p.y + offset.y, p.z + offset.z, frameAt(from) + offset.t};
   const int n[4] = {o.size.x, o.size.y, o.size.z, o.frames};
-  const bool around[4] = {o.periodic[0], o.periodic[1], o.periodic[2], o.loop};
+  const bool around[4] = {o.periodic.x, o.periodic.y, o.periodic.z, o.loop};
   for (int a = 0; a < 4; ++a) {
     if (q[a] >= 0 && q[a] < n[a]) continue;
     if (!around[a]) return -1;
@@ -220,7 +267,7 @@ std::int64_t ModelProblem::offsetPosition(std::int64_t from, const CellOffset& o
   return position({q[0], q[1], q[2]}, q[3]);
 }
 
-void ModelProblem::buildCells() {
+void ModelProblem::buildCells(const Progress& progress) {
   const ModelOptions& o = *options_;
   const std::int64_t count = positions();
   const auto hole = [&](std::int64_t at) { return !o.mask.empty() && o.mask[cellAt(at)] == 0; };
@@ -252,6 +299,7 @@ void ModelProblem::buildCells() {
   std::vector<LabelWord> allowed;
   std::vector<LabelWord> unary;
   for (std::int64_t at = 0; at < count; ++at) {
+    if (at % kCellsBetweenChecks == 0) progress.check();
     if (cellOf_[at] >= 0 || hole(at)) continue;
     const int cell = static_cast<int>(positionOf_.size());
     positionOf_.push_back(at);
@@ -291,7 +339,7 @@ void ModelProblem::buildCells() {
   std::copy(unary.begin(), unary.end(), unary_.data());
 }
 
-void ModelProblem::buildNetwork() {
+void ModelProblem::buildNetwork(const Progress& progress) {
   SymmetricRules rules = symmetricRules(*adjacency_, symmetry_);
   network_.labels = adjacency_->labelCount;
   network_.cells = static_cast<int>(positionOf_.size());
@@ -303,6 +351,7 @@ void ModelProblem::buildNetwork() {
   std::map<std::pair<int, int>, int> relations;  // of a slot and an element
   std::vector<std::vector<LabelNetwork::Link>> links(imageOf_.empty() ? 0 : network_.cells);
   for (int c = 0; c < network_.cells; ++c) {
+    if (c % kCellsBetweenChecks == 0) progress.check();
     for (int s = 0; s < network_.slots; ++s) {
       const CellOffset& o = rules.offsets[s / 2];
       const std::int64_t there = offsetPosition(positionOf_[c], s % 2 ? opposite(o) : o);
@@ -348,7 +397,7 @@ ModelDemands ModelProblem::demands() const {
   return all;
 }
 
-LabelSets ModelProblem::domains(const ModelDemands& demands) const {
+LabelSets ModelProblem::domains(const ModelDemands& demands, const Progress& progress) const {
   const ModelOptions& o = *options_;
   const int labels = network_.labels, words = network_.words();
   LabelSets all(labels, 1);
@@ -358,6 +407,7 @@ LabelSets ModelProblem::domains(const ModelDemands& demands) const {
   }
   LabelSets domains(labels, network_.cells);
   for (int c = 0; c < network_.cells; ++c) {
+    if (c % kCellsBetweenChecks == 0) progress.check();
     for (int w = 0; w < words; ++w) {
       domains[c][w] = all[0][w] & (unary_.rows() ? unary_[c][w] : ~LabelWord{0});
     }
@@ -403,6 +453,7 @@ LabelSets ModelProblem::domains(const ModelDemands& demands) const {
   }
   for (const WeightMap& m : o.weightMaps) {
     for (std::int64_t at = 0; at < positions(); ++at) {
+      if (at % kCellsBetweenChecks == 0) progress.check();
       const Vec3i p = cellAt(at);
       if (m.weight(p.x, p.y, m.weight.size().z == 1 ? 0 : p.z) > 0) continue;
       std::fill_n(allowed.data(), words, ~LabelWord{0});

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/cells.h"
 #include "synth/model/network.h"
 #include "synth/model/synthesize.h"
 
@@ -24,7 +25,8 @@ struct ModelDemands {
 class ModelProblem {
  public:
   /// Both arguments must outlive the problem. Throws `InputError` as `synthesizeModel` does.
-  ModelProblem(const Adjacency& adjacency, const ModelOptions& options);
+  ModelProblem(const Adjacency& adjacency, const ModelOptions& options,
+               const Progress& progress = {});
 
   const Adjacency& adjacency() const { return *adjacency_; }
   const ModelOptions& options() const { return *options_; }
@@ -42,6 +44,12 @@ class ModelProblem {
   int cell(std::int64_t position) const { return cellOf_[position]; }
   /// The first position of a network's cell.
   std::int64_t positionOf(int cell) const { return positionOf_[cell]; }
+  /// The cells of the network in a box of the grid and in the frames from `first` to before `last`,
+  /// ascending, each once. What reaches over a periodic side, or the end of a loop, goes on at the
+  /// other one; over other sides there is nothing. O(positions).
+  std::vector<std::int32_t> cellsIn(const CellBox& box, int first, int last) const;
+  /// The same: the cells up to `reach` steps away from one, along each axis and in time.
+  std::vector<std::int32_t> cellsAround(int cell, int reach) const;
   /// The label at a position where the network's cell there has `label`.
   Label labelAt(std::int64_t position, Label label) const {
     return symmetry_.image(imageOf_.empty() ? 0 : imageOf_[position], label);
@@ -50,7 +58,7 @@ class ModelProblem {
   /// All demands.
   ModelDemands demands() const;
   /// The labels that the demands leave each cell, before any propagation; O(cells).
-  LabelSets domains(const ModelDemands& demands) const;
+  LabelSets domains(const ModelDemands& demands, const Progress& progress = {}) const;
 
   /// The weight of a label at a cell: the user's weights and maps, without frequencies.
   double weight(int cell, int label) const;
@@ -58,8 +66,8 @@ class ModelProblem {
 
  private:
   void checkOptions() const;
-  void buildCells();
-  void buildNetwork();
+  void buildCells(const Progress& progress);
+  void buildNetwork(const Progress& progress);
   /// The position at an offset, or -1 outside the grid.
   std::int64_t offsetPosition(std::int64_t position, const CellOffset& offset) const;
 

@@ -5,6 +5,8 @@
 
 #include <map>
 
+#include "core/cells.h"
+
 namespace exemplar {
 namespace {
 
@@ -14,18 +16,20 @@ Vec3i stepOf(int i) { return {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}; }
 
 }  // namespace
 
-Resemblance::Resemblance(const ModelProblem& problem, std::span<const LabelGrid> examples)
+Resemblance::Resemblance(const ModelProblem& problem, std::span<const LabelGrid> examples,
+                         const Progress& progress)
     : problem_(&problem), windows_(problem.network().labels) {
   std::map<std::array<std::uint32_t, kCells>, double> counts;
   for (const LabelGrid& e : examples) {
-    for (std::size_t i = 0; i < e.cells.count(); ++i) {
+    forEachCell(e.size(), [&](const Vec3i& p) {
+      if (p.x == 0) progress.check();
       std::array<std::uint32_t, kCells> window;
       for (int n = 0; n < kCells; ++n) {
-        const Vec3i q = e.cells.ijk(i) + stepOf(n);
+        const Vec3i q = p + stepOf(n);
         window[n] = e.cells.contains(q) ? e.cells[q] : kOutside;
       }
       counts[window] += 1;
-    }
+    });
   }
   for (const auto& [window, count] : counts) {
     windows_[window[kCells / 2]].push_back({window, count});

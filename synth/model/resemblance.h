@@ -17,7 +17,8 @@ namespace exemplar {
 /// what stands around the cell in no more cells than the best such place of any label does.
 class Resemblance {
  public:
-  Resemblance(const ModelProblem& problem, std::span<const LabelGrid> examples);
+  Resemblance(const ModelProblem& problem, std::span<const LabelGrid> examples,
+              const Progress& progress = {});
 
   /// L(k) of equations 4 and 5 for each label of `labels`, with the threshold d0 at its least; 0
   /// for all others. `placed(cell)` is the label in place at a cell of the network, or -1: cells

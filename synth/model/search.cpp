@@ -25,8 +25,9 @@ int highestBit(std::span<const std::uint64_t> set) {
 }  // namespace
 
 bool labelInOrder(Catalog& catalog, std::span<const std::int32_t> order, const ChooseLabel& choose,
-                  std::int64_t& contradictions) {
+                  std::int64_t& contradictions, const Progress& progress) {
   for (const std::int32_t cell : order) {
+    progress.check();
     for (int draw = 0; !catalog.decided(cell); ++draw) {
       const int label = choose(cell, catalog.domain(cell), draw);
       catalog.mark();
@@ -48,8 +49,8 @@ bool labelInOrder(Catalog& catalog, std::span<const std::int32_t> order, const C
   return true;
 }
 
-SearchOutcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order,
-                           const ChooseLabel& choose, std::int64_t conflicts) {
+Outcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order,
+                     const ChooseLabel& choose, std::int64_t conflicts, const Progress& progress) {
   catalog.keepReasons(static_cast<int>(order.size()) + 1);
   const int words = catalog.reasonWords();
   std::vector<Decision> decisions;
@@ -61,8 +62,9 @@ SearchOutcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order
     while (at < order.size() && catalog.decided(order[at])) ++at;
     if (at == order.size()) {
       catalog.commit();
-      return SearchOutcome::Solved;
+      return Outcome::Complete;
     }
+    progress.check();
     const int cell = order[at];
     const int label = choose(cell, catalog.domain(cell), draw++);
     const int depth = catalog.mark();
@@ -72,15 +74,16 @@ SearchOutcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order
     bool sound = catalog.propagate();
 
     while (!sound) {
+      progress.check();
       if (++met > conflicts) {
         if (!decisions.empty()) catalog.undoTo(0);
-        return SearchOutcome::GaveUp;
+        return Outcome::Unfinished;
       }
       const auto emptied = catalog.reason(catalog.contradiction());
       const auto from = catalog.reason(catalog.contradictionFrom());
       for (int w = 0; w < words; ++w) blame[w] = emptied[w] | from[w];
       const int last = highestBit(blame);
-      if (last < 0) return SearchOutcome::Impossible;
+      if (last < 0) return Outcome::Impossible;
       blame[last / 64] &= ~(std::uint64_t{1} << (last % 64));
 
       const Decision wrong = decisions[last];

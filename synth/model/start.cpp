@@ -4,11 +4,10 @@
 #include "synth/model/start.h"
 
 #include <array>
+#include <numeric>
 #include <utility>
 
-#include "synth/model/catalog.h"
-#include "synth/model/exact.h"
-#include "synth/model/search.h"
+#include "synth/model/region.h"
 
 namespace exemplar {
 namespace {
@@ -80,41 +79,31 @@ std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, co
                                                  const LabelChooser& chooser,
                                                  ModelStatistics& statistics,
                                                  const Progress& progress) {
-  for (const auto& [px, py] : kPeriods) {
-    if (progress.cancelled()) break;
+  for (std::size_t period = 0; period < kPeriods.size(); ++period) {
+    progress.report("finding a tile to begin with",
+                    static_cast<double>(period) / static_cast<double>(kPeriods.size()));
+    const auto& [px, py] = kPeriods[period];
     if (px > problem.options().size.x || py > problem.options().size.y) continue;
     const Tile tile = tileOf(problem, base, px, py);
-    Catalog catalog(tile.network);
-    for (int c = 0; c < tile.network.cells; ++c) catalog.setDomain(c, tile.domains[c]);
-    if (!catalog.propagateAll()) continue;
-    LabelSets left(tile.network.labels, tile.network.cells);
-    std::vector<std::int32_t> order(tile.network.cells);
-    for (int c = 0; c < tile.network.cells; ++c) {
-      std::copy(catalog.domain(c).begin(), catalog.domain(c).end(), left[c].begin());
-      order[c] = c;
-    }
-    std::vector<Label> found(tile.network.cells);
-    const auto choose = [&](int c, std::span<const LabelWord> labels, int draw) {
-      return chooser.choose(tile.member[c], labels, 0x40000000u + static_cast<unsigned>(draw));
+    // The tile is a region that nothing surrounds.
+    std::vector<std::int32_t> all(static_cast<std::size_t>(tile.network.cells));
+    std::iota(all.begin(), all.end(), 0);
+    Region region(tile.network, tile.domains);
+    if (!region.takeBack(all, std::span<const Label>{}, progress)) continue;
+    RegionChoice choice{chooser.numbersFor(LabelChooser::Purpose::Start).fork(period)};
+    choice.choose = [&](const Random& random, int c, std::span<const LabelWord> set, int draw) {
+      return chooser.choose(random, tile.member[c], set, draw);
     };
-    const SearchOutcome outcome = searchLabels(catalog, order, choose, 200);
-    if (outcome == SearchOutcome::Impossible) continue;
-    if (outcome == SearchOutcome::Solved) {
-      for (int c = 0; c < tile.network.cells; ++c) {
-        found[c] = static_cast<Label>(catalog.firstLabel(c));
-      }
-    } else {
-      ++statistics.exact;
-      ExactSolver exact(tile.network, left);
-      for (int c = 0; c < tile.network.cells; ++c) exact.prefer(c, choose(c, left[c], 1 << 20));
-      if (exact.solve({}, problem.options().budget, progress) != ExactSolver::Outcome::Solved) {
-        continue;
-      }
-      for (int c = 0; c < tile.network.cells; ++c) found[c] = static_cast<Label>(exact.label(c));
-    }
-    std::vector<Label> labels(problem.network().cells);
-    for (int c = 0; c < problem.network().cells; ++c) labels[c] = found[tile.tileCell[c]];
-    // Where a periodic side meets its opposite out of step the tile does not do.
+    const RegionEffort effort{.passes = 0,
+                              .searches = 1,
+                              .searchConflicts = 200,
+                              .exactConflicts = problem.options().budget};
+    const Outcome outcome = region.relabel(effort, choice, progress);
+    statistics.exact += region.counts().exact;
+    if (outcome != Outcome::Complete) continue;
+    std::vector<Label> labels(static_cast<std::size_t>(problem.network().cells));
+    for (int c = 0; c < problem.network().cells; ++c) labels[c] = region.label(tile.tileCell[c]);
+    // Where a periodic side does not meet its opposite after whole tiles this tile will not do.
     if (consistent(problem.network(), labels)) return labels;
   }
   return std::nullopt;

@@ -49,7 +49,7 @@ void checkExamples(std::span<const LabelGrid> examples, const Adjacency& adjacen
 /// Takes from `base` what has no support (statement 3.6); false where a cell loses all of its
 /// labels. The sets that remain do not depend on the order of work, so pieces of the network come
 /// first, in parallel, and then what these have to tell each other.
-bool makeArcConsistent(const LabelNetwork& network, LabelSets& base) {
+bool makeArcConsistent(const LabelNetwork& network, LabelSets& base, const Progress& progress) {
   constexpr int kPiece = 8192;  // cells
   const int pieces = (network.cells + kPiece - 1) / kPiece;
   const auto copyBack = [&](const Catalog& catalog, int first) {
@@ -72,7 +72,7 @@ bool makeArcConsistent(const LabelNetwork& network, LabelSets& base) {
         for (std::size_t c = 0; c < cells.size(); ++c) {
           catalog.setDomain(static_cast<int>(c), base[cells[c]]);
         }
-        if (catalog.propagateAll()) {
+        if (catalog.propagateAll(progress)) {
           copyBack(catalog, first);
         } else {
           possible = false;
@@ -84,7 +84,7 @@ bool makeArcConsistent(const LabelNetwork& network, LabelSets& base) {
   Catalog catalog(network);
   for (int c = 0; c < network.cells; ++c) catalog.setDomain(c, base[c]);
   if (pieces == 1) {
-    if (!catalog.propagateAll()) return false;
+    if (!catalog.propagateAll(progress)) return false;
   } else {
     for (int c = 0; c < network.cells; ++c) {
       bool between = false;
@@ -92,15 +92,15 @@ bool makeArcConsistent(const LabelNetwork& network, LabelSets& base) {
                               [&](int n, int) { between = between || n / kPiece != c / kPiece; });
       if (between) catalog.touch(c);
     }
-    if (!catalog.propagate()) return false;
+    if (!catalog.propagate(progress)) return false;
   }
   copyBack(catalog, 0);
   return true;
 }
 
-/// The grids that a labelling of the network stands for.
+/// The grids that a labeling of the network stands for.
 std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& example,
-                               const std::vector<Label>& labels) {
+                               const std::vector<Label>& labels, const Progress& progress) {
   LabelGrid blank;
   blank.cells = Array3D<Label>(problem.options().size, 0);
   blank.labels = example.labels;
@@ -110,6 +110,7 @@ std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& exa
   std::vector<LabelGrid> grids(problem.options().frames, blank);
   parallelFor(0, static_cast<std::size_t>(problem.positions()), 1 << 14,
               [&](std::size_t begin, std::size_t end) {
+                progress.check();
                 for (std::size_t i = begin; i < end; ++i) {
                   const auto at = static_cast<std::int64_t>(i);
                   const int cell = problem.cell(at);
@@ -121,31 +122,39 @@ std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& exa
   return grids;
 }
 
-Labelling label(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-                ModelStatistics& statistics, const Progress& progress) {
+Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+               ModelStatistics& statistics, const Progress& progress) {
   // Metropolis needs something to compare with.
   const ModelMethod method =
       problem.options().metropolis ? ModelMethod::Blocks : problem.options().method;
+  double done = 0;
   const auto whole = [&](std::optional<int> patience) {
-    return labelWhole(problem, base, chooser, statistics, progress, patience);
+    const Progress rest = progress.part(done, 1);
+    Labeling labeling = labelWhole(problem, base, chooser, statistics, rest, patience);
+    done += (1 - done) * labeling.share;
+    return labeling;
   };
   if (method == ModelMethod::Whole) return whole(std::nullopt);
   if (method == ModelMethod::Auto) {
     // Where blocks are an alternative the whole is not worked on for minutes.
-    Labelling soon = whole(problem.options().patience);
-    if (soon.status != ModelStatus::Unfinished) return soon;
+    Labeling soon = whole(problem.options().patience);
+    if (soon.outcome != Outcome::Unfinished) return soon;
   }
-  std::optional<std::vector<Label>> start =
-      findTiledStart(problem, base, chooser, statistics, progress);
-  if (!start) {
-    // No small tile repeats: any labelling of the whole will do to begin with.
-    Labelling patient = whole(std::nullopt);
-    if (patient.status != ModelStatus::Complete || method == ModelMethod::Auto) return patient;
-    start = std::move(patient.labels);
+  const double start = done + 0.1 * (1 - done);
+  std::optional<std::vector<Label>> tiled =
+      findTiledStart(problem, base, chooser, statistics, progress.part(done, start));
+  done = start;
+  if (!tiled) {
+    // No small tile repeats: any labeling of the whole will do to begin with.
+    const double half = (1 + done) / 2;
+    Labeling patient = labelWhole(problem, base, chooser, statistics, progress.part(done, half));
+    if (patient.outcome != Outcome::Complete || method == ModelMethod::Auto) return patient;
+    tiled = std::move(patient.labels);
+    done = half;
   }
-  if (progress.cancelled()) return {ModelStatus::Cancelled, {}};
   statistics.whole = false;
-  return labelInBlocks(problem, base, chooser, std::move(*start), statistics, progress);
+  return labelInBlocks(problem, base, chooser, std::move(*tiled), statistics,
+                       progress.part(done, 1));
 }
 
 }  // namespace
@@ -154,30 +163,37 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
                             const ModelOptions& options, const Progress& progress) {
   checkExamples(examples, adjacency);
   checkMemory(adjacency, options);
-  const ModelProblem problem(adjacency, options);
-  const LabelNetwork& network = problem.network();
+  progress.report("preparing cells", 0);
+  const ModelProblem problem(adjacency, options, progress);
   ModelResult result;
   result.statistics.cells = problem.positions();
 
-  LabelSets base = problem.domains(problem.demands());
-  const bool possible = makeArcConsistent(network, base);
-  Labelling labelling{ModelStatus::Impossible, {}};
-  const LabelChooser chooser(problem, examples);
-  if (possible) labelling = label(problem, base, chooser, result.statistics, progress);
-  if (labelling.status == ModelStatus::Complete) {
-    labelling = meetLimits(problem, base, chooser, std::move(labelling.labels), result.statistics,
-                           progress);
+  progress.report("removing labels without support", 0.03);
+  LabelSets base = problem.domains(problem.demands(), progress);
+  const bool possible = makeArcConsistent(problem.network(), base, progress);
+  Labeling labeling{Outcome::Impossible, {}};
+  if (possible) {
+    progress.report("counting neighbors in the example", 0.08);
+    const LabelChooser chooser(problem, examples, progress);
+    labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, 0.85));
+    if (labeling.outcome == Outcome::Complete) {
+      labeling = meetLimits(problem, base, chooser, std::move(labeling.labels), result.statistics,
+                            progress.part(0.85, 0.95));
+    }
   }
 
-  result.status = labelling.status;
-  if (result.status == ModelStatus::Impossible) {
-    result.conflict = explainConflict(problem, examples[0].labels, progress);
-    if (progress.cancelled()) result.status = ModelStatus::Cancelled;
+  result.outcome = labeling.outcome;
+  if (result.outcome == Outcome::Impossible) {
+    result.conflict = explainConflict(problem, examples[0].labels, progress.part(0.85, 1));
   }
-  if (result.status != ModelStatus::Complete) return result;
-  result.frames = gridsOf(problem, examples[0], labelling.labels);
+  if (result.outcome != Outcome::Complete) return result;
+  progress.report("writing down labels", 0.95);
+  result.frames = gridsOf(problem, examples[0], labeling.labels, progress);
+  const double frames = static_cast<double>(result.frames.size());
   for (const LabelGrid& frame : result.frames) {
-    result.origins.push_back(findOrigins(frame, examples));
+    const double at = static_cast<double>(result.origins.size()) / frames;
+    result.origins.push_back(findOrigins(
+        frame, examples, progress.part(0.96 + 0.04 * at, 0.96 + 0.04 * (at + 1 / frames))));
   }
   return result;
 }

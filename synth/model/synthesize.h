@@ -11,21 +11,15 @@
 #include <vector>
 
 #include "core/array3d.h"
+#include "core/axes.h"
 #include "core/origin.h"
+#include "core/outcome.h"
 #include "core/progress.h"
 #include "synth/model/symmetry.h"
 #include "voxelize/adjacency.h"
 #include "voxelize/label_grid.h"
 
 namespace exemplar {
-
-/// How model synthesis came out.
-enum class ModelStatus {
-  Complete,    ///< every cell has a label, and every pair of neighbors is one of the example's
-  Impossible,  ///< proved: nothing meets the request; `ModelResult::conflict` says why
-  Unfinished,  ///< the budget was spent and nothing is proved; there is no result
-  Cancelled,   ///< by the caller; there is no result
-};
 
 /// Which cells are labelled together.
 enum class ModelMethod {
@@ -89,8 +83,7 @@ struct ModelOptions {
   int rounds = 1;           ///< over all blocks, 1..100
 
   std::array<SideRule, 6> sides;  ///< in the order of `Side`
-  /// The result repeats along x, y, z: its sides there meet each other and have no rule.
-  std::array<bool, 3> periodic{false, false, false};
+  Axes periodic;      ///< the result tiles along these: its sides there meet and have no rule
   bool loop = false;  ///< the last frame is followed by the first
 
   std::vector<PinnedCell> pins;
@@ -133,8 +126,10 @@ struct ModelStatistics {
 };
 
 struct ModelResult {
-  ModelStatus status = ModelStatus::Complete;
-  std::vector<LabelGrid> frames;  ///< one grid a frame; empty unless Complete
+  /// Complete: every cell has a label, and every pair of neighbors is one of the example's.
+  /// Impossible: proved; `conflict` says why. Unfinished: the budget was spent. Never Cancelled.
+  Outcome outcome = Outcome::Complete;
+  std::vector<LabelGrid> frames;  ///< one grid per frame; empty unless Complete
   /// For each frame and cell a cell of the example with the same label, whose neighbors agree best
   /// with the result's; `Origin::example` is the number of the example, or of its frame.
   std::vector<Origins> origins;

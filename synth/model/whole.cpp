@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <memory>
+#include <iterator>
+#include <optional>
 
 #include "synth/model/catalog.h"
-#include "synth/model/exact.h"
+#include "synth/model/region.h"
 #include "synth/model/search.h"
 
 namespace exemplar {
@@ -44,18 +45,15 @@ class WholePass {
         statistics_(statistics),
         progress_(progress),
         patience_(patience),
-        catalog_(network_),
-        draws_(0) {
+        catalog_(network_) {
     for (int c = 0; c < network_.cells; ++c) catalog_.setDomain(c, base[c]);
   }
 
-  Labelling run();
+  Labeling run();
 
  private:
-  ModelStatus repair(int cell);
-  ModelStatus repairWithin(int cell, int reach);
-  void selectRegion(int cell, int reach);
-  bool adopt(const std::vector<Label>& labels, int cell);
+  Outcome repair(int cell);
+  Outcome repairWithin(int cell, int reach);
   int mostFrequent(std::span<const LabelWord> labels) const;
 
   const ModelProblem& problem_;
@@ -65,95 +63,12 @@ class WholePass {
   ModelStatistics& statistics_;
   const Progress& progress_;
   std::optional<int> patience_;
-  int large_ = 0;  // large regions in a row that came to nothing
+  int large_ = 0;  // large regions in a row that could not be labeled
   Catalog catalog_;
-  std::uint32_t draws_;
-
-  std::unique_ptr<NetworkPart> part_;
-  std::vector<std::int32_t> region_;  // cells looked at, ascending
-  std::vector<std::int32_t> inner_;   // of these, the ones to label, as numbers of the part
+  std::optional<Region> region_;  // made for the first repair
+  std::uint64_t repairs_ = 0;
   int lastRepaired_ = -1, lastReach_ = 0, again_ = 0;
 };
-
-void WholePass::selectRegion(int cell, int reach) {
-  const ModelOptions& o = problem_.options();
-  const std::int64_t at = problem_.positionOf(cell);
-  const Vec3i center = problem_.cellAt(at);
-  const int frame = problem_.frameAt(at);
-  const int wide = reach + kMargin;
-  region_.clear();
-  std::vector<std::int32_t> inside;
-  const auto distance = [&](int offset, int n, bool periodic) {
-    const int d = std::abs(offset);
-    return periodic ? std::min(d, n - d) : d;
-  };
-  // Each coordinate within reach, on the other side of a periodic axis too.
-  const auto range = [&](int c, int n, bool periodic) {
-    std::vector<int> list;
-    for (int i = 0; i < n; ++i) {
-      if (distance(i - c, n, periodic) <= wide) list.push_back(i);
-    }
-    return list;
-  };
-  const auto xs = range(center.x, o.size.x, o.periodic[0]);
-  const auto ys = range(center.y, o.size.y, o.periodic[1]);
-  const auto zs = range(center.z, o.size.z, o.periodic[2]);
-  const auto ts = range(frame, o.frames, o.loop);
-  for (const int x : xs) {
-    for (const int y : ys) {
-      for (const int z : zs) {
-        for (const int t : ts) {
-          const int c = problem_.cell(problem_.position({x, y, z}, t));
-          if (c < 0) continue;
-          const int d = std::max({distance(x - center.x, o.size.x, o.periodic[0]),
-                                  distance(y - center.y, o.size.y, o.periodic[1]),
-                                  distance(z - center.z, o.size.z, o.periodic[2]),
-                                  distance(t - frame, o.frames, o.loop)});
-          if (d <= reach) {
-            inside.push_back(c);
-            region_.push_back(c);
-          } else if (c > cell) {
-            region_.push_back(c);
-          }
-        }
-      }
-    }
-  }
-  // Images of one cell come several times.
-  for (auto* list : {&inside, &region_}) {
-    std::sort(list->begin(), list->end());
-    list->erase(std::unique(list->begin(), list->end()), list->end());
-  }
-  if (!part_) part_ = std::make_unique<NetworkPart>(network_);
-  part_->select(region_);
-  inner_.clear();
-  for (const std::int32_t c : inside) inner_.push_back(part_->local(c));
-}
-
-/// Puts a region's new labels in place, for the cells up to `cell`, and sets free the others.
-bool WholePass::adopt(const std::vector<Label>& labels, int cell) {
-  catalog_.mark();
-  std::vector<LabelWord> one(network_.words());
-  for (const std::int32_t c : region_) {
-    if (c > cell) {
-      catalog_.setDomain(c, base_[c]);
-    } else {
-      std::fill(one.begin(), one.end(), 0);
-      addLabel(one, labels[part_->local(c)]);
-      catalog_.setDomain(c, one);
-    }
-  }
-  for (const std::int32_t c : region_) {
-    catalog_.touch(c);
-    network_.forEachNeighbor(c, [&](int n, int) { catalog_.touch(n); });
-  }
-  if (!catalog_.propagate()) {
-    catalog_.undoTo(0);
-    return false;
-  }
-  catalog_.commit();
-  return true;
-}
 
 int WholePass::mostFrequent(std::span<const LabelWord> labels) const {
   int best = -1;
@@ -164,67 +79,45 @@ int WholePass::mostFrequent(std::span<const LabelWord> labels) const {
   return best;
 }
 
-ModelStatus WholePass::repairWithin(int cell, int reach) {
-  selectRegion(cell, reach);
-  const int count = static_cast<int>(region_.size());
-  LabelSets domains(network_.labels, count);
-  for (int c = 0; c < count; ++c) {
-    std::copy(base_[region_[c]].begin(), base_[region_[c]].end(), domains[c].begin());
-    part_->restrictByOutside(c, domains[c], [&](int far) { return catalog_.domain(far); });
-  }
-  const bool everything = count == network_.cells;
-  Catalog local(part_->network());
-  for (int c = 0; c < count; ++c) local.setDomain(c, domains[c]);
-  if (!local.propagateAll()) return everything ? ModelStatus::Impossible : ModelStatus::Unfinished;
-  for (int c = 0; c < count; ++c) {
-    std::copy(local.domain(c).begin(), local.domain(c).end(), domains[c].begin());
-  }
+/// Labels the cells within `reach` of one anew, in the whole catalog too. Of these and of cells
+/// around them those after `cell` are not labeled yet: they are set free again. Complete;
+/// Unfinished where that did not succeed; Impossible where the region was everything and it is
+/// proved that nothing fits.
+Outcome WholePass::repairWithin(int cell, int reach) {
+  if (!region_) region_.emplace(network_, base_);
+  Region& region = *region_;
+  const std::vector<std::int32_t> inner = problem_.cellsAround(cell, reach);
+  const std::vector<std::int32_t> wide = problem_.cellsAround(cell, reach + kMargin);
+  std::vector<std::int32_t> ahead;
+  std::set_difference(std::upper_bound(wide.begin(), wide.end(), cell), wide.end(), inner.begin(),
+                      inner.end(), std::back_inserter(ahead));
+  const bool everything = inner.size() + ahead.size() == static_cast<std::size_t>(network_.cells);
+  const Outcome failed = everything ? Outcome::Impossible : Outcome::Unfinished;
+  const std::int64_t exactBefore = region.counts().exact;
+  if (!region.takeBack(inner, ahead, catalog_, progress_)) return failed;
 
-  std::vector<Label> labels(count, 0);
-  const LabelChooser::Placed placed = [&](int far) {
-    const int c = part_->local(far);
-    if (c >= 0) return local.decided(c) ? local.firstLabel(c) : -1;
-    return catalog_.decided(far) ? catalog_.firstLabel(far) : -1;
-  };
-  const int attempts = inner_.size() <= kMostSearched ? 2 : 0;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    draws_ += 64;
-    const std::uint32_t first = draws_;
-    const auto choose = [&](int c, std::span<const LabelWord> set, int draw) {
-      return chooser_.choose(region_[c], set, first + static_cast<std::uint32_t>(draw), placed);
-    };
-    if (attempt > 0) {
-      for (int c = 0; c < count; ++c) local.setDomain(c, domains[c]);
-    }
-    const SearchOutcome outcome =
-        searchLabels(local, inner_, choose, 50 + static_cast<std::int64_t>(inner_.size()) / 4);
-    if (outcome == SearchOutcome::Impossible) {
-      return everything ? ModelStatus::Impossible : ModelStatus::Unfinished;
-    }
-    if (outcome == SearchOutcome::GaveUp) continue;
-    for (const std::int32_t c : inner_) labels[c] = static_cast<Label>(local.firstLabel(c));
-    if (adopt(labels, cell)) return ModelStatus::Complete;
-  }
-
-  ++statistics_.exact;
-  ExactSolver exact(part_->network(), domains);
-  // What stands there first, and what is most frequent ahead: the solution then changes little, is
-  // found soon, and what is ahead is chosen at random later.
-  for (int c = 0; c < count; ++c) {
-    exact.prefer(c, region_[c] < cell ? catalog_.firstLabel(region_[c]) : mostFrequent(domains[c]));
-  }
   const std::int64_t budget = problem_.options().budget;
-  const auto outcome =
-      exact.solve({}, everything ? budget : std::min(budget, kRegionConflicts), progress_);
-  if (outcome == ExactSolver::Outcome::Solved) {
-    for (int c = 0; c < count; ++c) labels[c] = static_cast<Label>(exact.label(c));
-    if (adopt(labels, cell)) return ModelStatus::Complete;
-  }
-  if (outcome == ExactSolver::Outcome::Impossible && everything) return ModelStatus::Impossible;
-  return ModelStatus::Unfinished;
+  RegionEffort effort;
+  effort.passes = 0;
+  effort.searches = inner.size() <= kMostSearched ? 2 : 0;
+  effort.searchConflicts = 50 + static_cast<std::int64_t>(inner.size()) / 4;
+  effort.exactConflicts = everything ? budget : std::min(budget, kRegionConflicts);
+  RegionChoice choice{chooser_.numbersFor(LabelChooser::Purpose::Repairs).fork(repairs_++)};
+  choice.choose = [&](const Random& random, int c, std::span<const LabelWord> set, int draw) {
+    return chooser_.choose(random, c, set, draw, region.placed());
+  };
+  // What was there first, and what is most frequent ahead: the solution then changes little, is
+  // found soon, and what is ahead is chosen at random later.
+  choice.prefer = [&](int c, std::span<const LabelWord> set) {
+    return c < cell ? catalog_.firstLabel(c) : mostFrequent(set);
+  };
+  choice.fits = [&] { return region.keep(catalog_, cell); };
+  const Outcome outcome = region.relabel(effort, choice, progress_);
+  statistics_.exact += region.counts().exact - exactBefore;
+  return outcome == Outcome::Impossible ? failed : outcome;
 }
 
-ModelStatus WholePass::repair(int cell) {
+Outcome WholePass::repair(int cell) {
   // Where the last repairs were near, too, regions of that size do not help.
   std::size_t first = 0;
   const Vec3i here = problem_.cellAt(problem_.positionOf(cell));
@@ -240,54 +133,46 @@ ModelStatus WholePass::repair(int cell) {
   }
   for (std::size_t r = first; r < kReach.size(); ++r) {
     ++statistics_.repairs;
-    const ModelStatus status = repairWithin(cell, kReach[r]);
-    if (progress_.cancelled()) return ModelStatus::Cancelled;
-    if (status == ModelStatus::Unfinished && kReach[r] >= kLarge && patience_ &&
+    const Outcome outcome = repairWithin(cell, kReach[r]);
+    if (outcome == Outcome::Unfinished && kReach[r] >= kLarge && patience_ &&
         ++large_ > *patience_) {
-      return status;
+      return outcome;
     }
-    if (status != ModelStatus::Unfinished) {
+    if (outcome != Outcome::Unfinished) {
       large_ = 0;
       lastRepaired_ = cell;
       lastReach_ = static_cast<int>(r);
-      return status;
+      return outcome;
     }
   }
   std::int64_t labels = 0;
   for (int c = 0; c < network_.cells; ++c) labels += labelsIn(base_[c]);
-  if (labels > kMostLabelsAtOnce) return ModelStatus::Unfinished;
+  if (labels > kMostLabelsAtOnce) return Outcome::Unfinished;
   ++statistics_.repairs;
-  const ModelStatus status = repairWithin(cell, kEverywhere);
-  return progress_.cancelled() ? ModelStatus::Cancelled : status;
+  return repairWithin(cell, kEverywhere);
 }
 
-Labelling WholePass::run() {
-  Labelling result;
+Labeling WholePass::run() {
+  Labeling result;
   const LabelChooser::Placed placed = [this](int cell) {
     return catalog_.decided(cell) ? catalog_.firstLabel(cell) : -1;
   };
   for (int c = 0; c < network_.cells; ++c) {
-    if (c % 4096 == 0) {
-      progress_.report("labelling", static_cast<double>(c) / network_.cells);
-      if (progress_.cancelled()) {
-        result.status = ModelStatus::Cancelled;
-        return result;
-      }
-    }
+    result.share = static_cast<double>(c) / network_.cells;
+    if (c % 1024 == 0) progress_.report("labeling", result.share);
     if (catalog_.decided(c)) continue;
-    const std::uint32_t first = draws_;
     const auto choose = [&](int cell, std::span<const LabelWord> set, int draw) {
-      return chooser_.choose(cell, set, first + static_cast<std::uint32_t>(draw), placed);
+      return chooser_.choose(chooser_.numbersForPass(), cell, set, draw, placed);
     };
     const std::int32_t one[1] = {c};
-    if (labelInOrder(catalog_, one, choose, statistics_.contradictions)) continue;
-    const ModelStatus status = repair(c);
-    if (status != ModelStatus::Complete) {
-      result.status = status;
+    if (labelInOrder(catalog_, one, choose, statistics_.contradictions, progress_)) continue;
+    const Outcome outcome = repair(c);
+    if (outcome != Outcome::Complete) {
+      result.outcome = outcome;
       return result;
     }
   }
-  result.status = ModelStatus::Complete;
+  result.outcome = Outcome::Complete;
   result.labels.resize(network_.cells);
   for (int c = 0; c < network_.cells; ++c) {
     result.labels[c] = static_cast<Label>(catalog_.firstLabel(c));
@@ -297,9 +182,9 @@ Labelling WholePass::run() {
 
 }  // namespace
 
-Labelling labelWhole(const ModelProblem& problem, const LabelSets& base,
-                     const LabelChooser& chooser, ModelStatistics& statistics,
-                     const Progress& progress, std::optional<int> patience) {
+Labeling labelWhole(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+                    ModelStatistics& statistics, const Progress& progress,
+                    std::optional<int> patience) {
   return WholePass(problem, base, chooser, statistics, progress, patience).run();
 }
 

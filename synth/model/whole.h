@@ -12,22 +12,23 @@
 
 namespace exemplar {
 
-/// What a way of labelling a network came to. `labels`, one a cell, is there where Complete.
-struct Labelling {
-  ModelStatus status = ModelStatus::Unfinished;
-  std::vector<Label> labels;
+/// How labeling a network ended.
+struct Labeling {
+  Outcome outcome = Outcome::Unfinished;
+  std::vector<Label> labels;  ///< one for each cell where Complete; else empty
+  double share = 1;           ///< of the work that was done, 0..1
 };
 
 /// Labels the whole network in one pass (thesis, Algorithm 3.1) over arc-consistent sets `base`,
-/// cell after cell. A label that leaves some cell without any is taken back at once. A cell that
-/// loses all its labels so is repaired: a region around it is taken back and labelled anew, by
-/// search and then exactly, and grows until that succeeds.
+/// cell after cell. A label that leaves some cell without any is taken back at once. Where a cell
+/// loses all of its labels in this way, the region around it (`Region`) is taken back and labeled
+/// anew, by search and then exactly; the region grows until that succeeds.
 ///
-/// With `patience`, ends Unfinished after so many large regions in a row that came to nothing.
-/// Ends with Impossible where the region has grown to everything and the exact solver proves that
-/// nothing fits; with Unfinished where it could not tell.
-Labelling labelWhole(const ModelProblem& problem, const LabelSets& base,
-                     const LabelChooser& chooser, ModelStatistics& statistics,
-                     const Progress& progress, std::optional<int> patience = std::nullopt);
+/// With `patience`, ends Unfinished after more than that many large regions in a row that could not
+/// be labeled. Impossible where the region has grown to everything and the exact solver proves that
+/// nothing fits; Unfinished where it could not decide. Throws `Cancelled`.
+Labeling labelWhole(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+                    ModelStatistics& statistics, const Progress& progress,
+                    std::optional<int> patience = std::nullopt);
 
 }  // namespace exemplar

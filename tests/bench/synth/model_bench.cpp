@@ -61,9 +61,9 @@ void synthesize(benchmark::State& state, const LabelGrid& example, const ModelOp
   for (auto _ : state) {
     ModelResult r;
     arena.execute([&] { r = synthesizeModel(std::span(&example, 1), adjacency, o); });
-    complete += r.status == ModelStatus::Complete;
+    complete += r.outcome == Outcome::Complete;
     state.PauseTiming();
-    if (r.status == ModelStatus::Complete && o.seed == wanted.seed &&
+    if (r.outcome == Outcome::Complete && o.seed == wanted.seed &&
         findViolations(r.grid(), example).count != 0) {
       state.SkipWithError("a pair of labels that the example does not show");
     }

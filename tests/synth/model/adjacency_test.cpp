@@ -36,7 +36,7 @@ TEST(FindAdjacency, GoesAroundWhereTheExampleIsPeriodic) {
   const LabelGrid g = test::drawnFlat({"abc"});
   EXPECT_FALSE(findAdjacency(g).rules[0].allows(3, 1));
   AdjacencyOptions o;
-  o.periodic[0] = true;
+  o.periodic.x = true;
   const Adjacency a = findAdjacency(g, o);
   EXPECT_TRUE(a.rules[0].allows(3, 1));
   EXPECT_TRUE(findAdjacency(g).rules[1].pairs.empty());

@@ -38,7 +38,7 @@ TEST_P(CatalogOfLabels, EqualsBruteForceArcConsistency) {
     const Adjacency a =
         randomAdjacency(labels, (1 + (labels < 100 ? 0.3 : 0.75) * trial) / labels, trial, 3);
     ModelOptions o = freeOptions({4, 3, 2});
-    if (trial % 3 == 1) o.periodic[0] = true;
+    if (trial % 3 == 1) o.periodic.x = true;
     if (trial % 3 == 2) {
       o.mask = Array3D<std::uint8_t>(o.size, 1);
       o.mask(1, 1, 0) = 0;
@@ -123,8 +123,8 @@ TEST(SearchLabels, DecidesAsEnumerationDoes) {
     const auto outcome = searchLabels(
         catalog, order,
         [](int, std::span<const LabelWord> set, int) { return std::countr_zero(set[0]); }, 100000);
-    ASSERT_EQ(outcome == SearchOutcome::Solved, expected) << trial;
-    ASSERT_NE(outcome, SearchOutcome::GaveUp);
+    ASSERT_EQ(outcome == Outcome::Complete, expected) << trial;
+    ASSERT_NE(outcome, Outcome::Unfinished);
     if (!expected) {
       ++impossible;
       continue;
@@ -151,7 +151,7 @@ TEST(SearchLabels, GivesUpWithTheSetsItBeganWith) {
     }
   }
   ModelOptions o = freeOptions({5, 1, 1});
-  o.periodic[0] = true;
+  o.periodic.x = true;
   const ModelProblem problem(a, o);
   Catalog catalog(problem.network());
   fill(catalog, problem);
@@ -161,9 +161,9 @@ TEST(SearchLabels, GivesUpWithTheSetsItBeganWith) {
   const auto first = [](int, std::span<const LabelWord> set, int) {
     return std::countr_zero(set[0]);
   };
-  EXPECT_EQ(searchLabels(catalog, order, first, 0), SearchOutcome::GaveUp);
+  EXPECT_EQ(searchLabels(catalog, order, first, 0), Outcome::Unfinished);
   EXPECT_EQ(setsOf(catalog), before);
-  EXPECT_EQ(searchLabels(catalog, order, first, 1000), SearchOutcome::Impossible);
+  EXPECT_EQ(searchLabels(catalog, order, first, 1000), Outcome::Impossible);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST(LabelChooser, ContinuesARowAsTheExampleDoes) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const ModelResult r =
         synthesizeModel(example, freeSides({6000, 1, 1}, seed, LabelChoice::Neighbors));
-    ASSERT_EQ(r.status, ModelStatus::Complete);
+    ASSERT_EQ(r.outcome, Outcome::Complete);
     EXPECT_LT(worstTransition(example, r.grid()), 4.5) << seed;
   }
   // Chosen by frequency alone, pairs come as often as labels meet by chance.
@@ -113,7 +113,7 @@ TEST(LabelChooser, PlacesObjectsAsDenselyAsTheExample) {
       o.sides[4].kind = o.sides[5].kind = SideRule::Kind::Example;
       o.method = method;
       const ModelResult r = synthesizeModel(example, o);
-      ASSERT_EQ(r.status, ModelStatus::Complete);
+      ASSERT_EQ(r.outcome, Outcome::Complete);
       EXPECT_EQ(findViolations(r.grid(), example).count, 0);
       // Neighbors are taken each by itself, so the density is not met to the last post; chance
       // alone moves some 180 posts by 13.

@@ -34,7 +34,7 @@ TEST(ExactSolver, HasAsManySolutionsAsEnumerationFinds) {
     const ModelProblem problem(a, o);
     ExactSolver exact(problem.network(), problem.domains(problem.demands()));
     std::int64_t found = 0;
-    while (exact.solve({}, 100000) == ExactSolver::Outcome::Solved) {
+    while (exact.solve({}, 100000) == Outcome::Complete) {
       Array3D<Label> cells(size);
       std::vector<std::pair<int, int>> solution;
       for (int c = 0; c < problem.network().cells; ++c) {
@@ -70,11 +70,11 @@ TEST(ExactSolver, NamesTheDemandsThatAProofUses) {
     return d;
   };
   const std::vector<int> on{demand({0, 0, 0}, 2), demand({3, 1, 0}, 1), demand({5, 0, 0}, 0)};
-  ASSERT_EQ(exact.solve(on, 1000), ExactSolver::Outcome::Impossible);
+  ASSERT_EQ(exact.solve(on, 1000), Outcome::Impossible);
   EXPECT_TRUE(exact.used(on[0]));
   EXPECT_FALSE(exact.used(on[1]));
   EXPECT_TRUE(exact.used(on[2]));
-  EXPECT_EQ(exact.solve(std::span(on).first(2), 1000), ExactSolver::Outcome::Solved);
+  EXPECT_EQ(exact.solve(std::span(on).first(2), 1000), Outcome::Complete);
 }
 
 }  // namespace

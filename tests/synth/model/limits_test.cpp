@@ -68,11 +68,11 @@ TEST(Limits, CountsAreKept) {
     o.seed = seed;
     o.counts.clear();
     const ModelResult before = synthesizeModel(example, o);
-    ASSERT_EQ(before.status, ModelStatus::Complete);
+    ASSERT_EQ(before.outcome, Outcome::Complete);
     ASSERT_GT(count(before.grid(), ends), 10);
     o.counts = {{ends, 0, 10}, {bends, count(before.grid(), bends) + 15, std::nullopt}};
     const ModelResult after = synthesizeModel(example, o);
-    ASSERT_EQ(after.status, ModelStatus::Complete);
+    ASSERT_EQ(after.outcome, Outcome::Complete);
     EXPECT_LE(count(after.grid(), ends), 10);
     EXPECT_GE(count(after.grid(), bends), o.counts[1].least);
     EXPECT_EQ(findViolations(after.grid(), example).count, 0);
@@ -93,7 +93,7 @@ TEST(Limits, ChosenLabelsFormOnePiece) {
     ASSERT_GT(pieces(synthesizeModel(example, o).grid(), paths), 1);
     o.connected = {paths};
     const ModelResult r = synthesizeModel(example, o);
-    ASSERT_EQ(r.status, ModelStatus::Complete);
+    ASSERT_EQ(r.outcome, Outcome::Complete);
     EXPECT_EQ(pieces(r.grid(), paths), 1);
     EXPECT_EQ(findViolations(r.grid(), example).count, 0);
   }
@@ -106,7 +106,7 @@ TEST(Limits, WhatCannotBeCountedUpEndsUnfinished) {
   o.budget = 300;
   o.counts = {{named(example, {"e"}), 30, std::nullopt}};
   const ModelResult r = synthesizeModel(example, o);
-  EXPECT_EQ(r.status, ModelStatus::Unfinished);
+  EXPECT_EQ(r.outcome, Outcome::Unfinished);
   EXPECT_TRUE(r.frames.empty());
 }
 
@@ -123,7 +123,7 @@ TEST(Metropolis, DrawsLabelsToWhereTheirWeightIs) {
   }
   o.weightMaps.push_back(empty);
   const ModelResult r = synthesizeModel(example, o);
-  ASSERT_EQ(r.status, ModelStatus::Complete);
+  ASSERT_EQ(r.outcome, Outcome::Complete);
   EXPECT_EQ(findViolations(r.grid(), example).count, 0);
   EXPECT_GT(r.statistics.blocksKept, 0);
   int left = 0, right = 0;
@@ -178,7 +178,7 @@ TEST(Resemblance, MakesResultsMoreLikeTheExample) {
       o.seed = seed;
       o.choice = r ? LabelChoice::Resemblance : LabelChoice::Frequency;
       const ModelResult result = synthesizeModel(example, o);
-      ASSERT_EQ(result.status, ModelStatus::Complete);
+      ASSERT_EQ(result.outcome, Outcome::Complete);
       for (const auto& w : windows(result.grid())) {
         alike[r] += std::binary_search(known.begin(), known.end(), w);
       }

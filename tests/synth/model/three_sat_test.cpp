@@ -107,11 +107,11 @@ void expectDecided(const std::vector<Clause>& formula, int variables, std::uint6
   o.seed = seed;
   const ModelResult r = synthesizeModel(std::span(&labels, 1), rules, o);
   if (!satisfiable(formula, variables)) {
-    EXPECT_EQ(r.status, ModelStatus::Impossible);
+    EXPECT_EQ(r.outcome, Outcome::Impossible);
     EXPECT_FALSE(r.conflict.pins.empty());
     return;
   }
-  ASSERT_EQ(r.status, ModelStatus::Complete);
+  ASSERT_EQ(r.outcome, Outcome::Complete);
   unsigned values = 0;
   for (int v = 0; v < variables; ++v) values |= (r.grid().cells(3 * v + 1, 0, 0) == 2) << v;
   EXPECT_TRUE(satisfied(formula, values));

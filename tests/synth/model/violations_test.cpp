@@ -25,7 +25,7 @@ TEST(FindViolations, FindsEachPlantedOne) {
   ModelOptions o;
   o.size = {15, 15, 1};
   const ModelResult r = synthesizeModel(example, o);
-  ASSERT_EQ(r.status, ModelStatus::Complete);
+  ASSERT_EQ(r.outcome, Outcome::Complete);
   // Two '2's side by side are nowhere in the example.
   LabelGrid broken = r.grid();
   Label two = 0;
@@ -51,7 +51,7 @@ TEST(FindViolations, LooksAcrossPeriodicSidesFramesAndFurtherOffsets) {
   odd.cells(1, 0, 0) = 1;
   EXPECT_EQ(findViolations(odd, example).count, 0);
   ViolationOptions periodic;
-  periodic.periodic[0] = true;
+  periodic.periodic.x = true;
   EXPECT_EQ(findViolations(odd, example, periodic).count, 1);
 
   ViolationOptions frames;
