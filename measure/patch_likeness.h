@@ -5,12 +5,13 @@
 
 #include <cstdint>
 
+#include "core/figure_constants.h"
 #include "measure/occupancy.h"
 
 namespace exemplar {
 
 /// The side of a surface window, in cells.
-inline constexpr int kWindowSize = 11;
+inline constexpr int kWindowSize = kLikenessWindow;
 
 /// Which windows of a volume count.
 enum class WindowBorder {

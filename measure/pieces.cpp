@@ -9,12 +9,10 @@
 #include <utility>
 
 #include "core/disjoint_sets.h"
+#include "core/figure_constants.h"
 
 namespace exemplar {
 namespace {
-
-constexpr double kContact = 0.5;       // voxels: thinner contacts do not join bodies
-constexpr double kMostlyWhole = 0.25;  // of the solid in whole pieces
 
 /// Solid cells x0..x1 (excluded) of one row.
 struct Run {
@@ -100,10 +98,10 @@ Pieces comparePieces(const DistanceField& example, const DistanceField& result) 
   Pieces pieces;
   std::vector<Component> components = connectedComponents(Occupancy(example));
   if (wholeShare(components) < kMostlyWhole) {
-    auto deeper = connectedComponents(Occupancy(example, kContact));
+    auto deeper = connectedComponents(Occupancy(example, kContactDepth));
     if (wholeShare(deeper) >= kMostlyWhole) {
       components = std::move(deeper);
-      pieces.depth = kContact;
+      pieces.depth = kContactDepth;
     }
   }
   std::int64_t largest = 0;
@@ -119,7 +117,8 @@ Pieces comparePieces(const DistanceField& example, const DistanceField& result) 
   for (const Component& c : connectedComponents(solid)) {
     if (c.touchesFace) continue;
     ++pieces.result;
-    if (2 * c.cells < pieces.smallest) broken += c.cells;
+    if (static_cast<double>(c.cells) < kBrokenShare * static_cast<double>(pieces.smallest))
+      broken += c.cells;
   }
   pieces.examplePerMillion = perMillion(pieces.example, example);
   pieces.resultPerMillion = perMillion(pieces.result, result);

@@ -17,12 +17,11 @@
 #include "search/block_index.h"
 #include "search/linear_scan.h"
 #include "search/search_tree.h"
+#include "synth/geometry/pyramid/pyramid.h"
 #include "synth/geometry/stationary.h"
 
 namespace exemplar {
 namespace {
-
-constexpr std::uint32_t kSeedStream = 0xb10c, kStartStream = 0xb10d;
 
 /// Whether blocks keep their height: where the example is not stationary along z (ground below, air
 /// above) and the result is as high as it.
@@ -101,7 +100,7 @@ class Pass {
   /// Seeds the target with random samples of the example (of the same height, where that is kept),
   /// or with nothing.
   void seedRandomly() {
-    const Random random(options_.seed, kSeedStream);
+    const Random random(options_.seed, stream::kBlockSeeding);
     parallelFor(0, target_.count(), 4096, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         Vec3i from;
@@ -127,8 +126,8 @@ class Pass {
   }
 
   /// Makes every block, in waves of blocks that do not depend on each other: a block reads only
-  /// what blocks made whose indices add up to less. Returns false when cancelled.
-  bool run(const std::string& stage, const Progress& progress) {
+  /// what blocks made whose indices add up to less.
+  void run(const std::string& stage, const Progress& progress) {
     const Vec3i blocks = cells_ - Vec3i{1, 1, 1};
     const int waves = blocks.x + blocks.y + blocks.z - 2;
     const double all = static_cast<double>(volume(blocks));
@@ -142,13 +141,14 @@ class Pass {
         }
       }
       parallelFor(0, wave.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end && !progress.cancelled(); ++n) make(wave[n]);
+        for (std::size_t n = begin; n < end; ++n) {
+          progress.check();
+          make(wave[n]);
+        }
       });
       matches_ += static_cast<std::int64_t>(wave.size());
-      if (progress.cancelled()) return false;
       progress.report(stage, static_cast<double>(matches_) / all);
     }
-    return true;
   }
 
   const Array3D<Vec3i>& origins() const { return origins_; }
@@ -211,7 +211,7 @@ class Pass {
 
   /// Any place in the slab.
   Vec3i randomMatch(const Vec3i& block) const {
-    const Random random(options_.seed, kStartStream);
+    const Random random(options_.seed, stream::kBlockStart);
     const Vec3i last = source_.size() - Vec3i{1, 1, 1} * ((2 * half_ - 1) * step_ + 1);
     const std::size_t key = origins_.index(block * half_);
     Vec3i position;
@@ -294,7 +294,8 @@ SynthesisResult synthesizeBlocks(const DistanceField& example, const BlocksOptio
     const std::string stage = "matching blocks, level " +
                               std::to_string(options.iterations - level) + " of " +
                               std::to_string(options.iterations);
-    progress.report(stage, 0);
+    const Progress iteration = levelProgress(progress, level, options.iterations);
+    iteration.report(stage, 0);
     const int side = blockSide(example, options, level);
     if (!source || source->side != side) source.emplace(example, side, options);
     const int cell = 1 << level;
@@ -307,13 +308,9 @@ SynthesisResult synthesizeBlocks(const DistanceField& example, const BlocksOptio
     } else {
       pass.seedWith(origins);
     }
-    const bool done = pass.run(stage, progress);
+    pass.run(stage, iteration);
     result.matches += pass.matches();
     origins = pass.origins();
-    if (!done) {
-      result.status = SynthesisStatus::Cancelled;
-      return result;
-    }
   }
 
   result.field = example;

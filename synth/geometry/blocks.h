@@ -50,7 +50,7 @@ struct BlocksOptions {
 ///
 /// The result's samples are the example's, each at its origin. About result / (block/2)³ searches
 /// in the last iteration. The same bytes at any number of threads. Throws `InputError` for options
-/// out of range.
+/// out of range, `Cancelled` when cancelled.
 SynthesisResult synthesizeBlocks(const DistanceField& example, const BlocksOptions& options,
                                  const Progress& progress = {});
 

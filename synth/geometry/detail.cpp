@@ -14,9 +14,9 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "sdf/resample.h"
-#include "synth/geometry/even_seams.h"
-#include "synth/geometry/seams.h"
-#include "synth/geometry/source_sheet.h"
+#include "synth/geometry/pyramid/source_part.h"
+#include "synth/geometry/seams/even_seams.h"
+#include "synth/geometry/seams/seams.h"
 
 namespace exemplar {
 namespace {
@@ -24,21 +24,6 @@ namespace {
 constexpr int kMostDetail = 16;
 /// Seams see distances up to here, in fine voxels.
 constexpr float kSeamTruncation = 4;
-
-/// The cell of a turned grid of size `n` that a cell of the grid becomes: the inverse of
-/// `SourcePart::unturned`.
-Vec3i turnedCell(const Vec3i& n, int turns, const Vec3i& cell) {
-  switch (turns) {
-    case 1:
-      return {n.x - 1 - cell.y, cell.x, cell.z};
-    case 2:
-      return {n.x - 1 - cell.x, n.y - 1 - cell.y, cell.z};
-    case 3:
-      return {cell.y, n.y - 1 - cell.x, cell.z};
-    default:
-      return cell;
-  }
-}
 
 }  // namespace
 
@@ -72,7 +57,8 @@ SynthesisResult addDetail(std::span<const DistanceField* const> fine, const Orig
     const SourcePart& part = parts[number];
     const Vec3i n = part.field.size();
     const Vec3i cell =
-        turnedCell({n.x / factor, n.y / factor, n.z / factor}, part.turns, from.cell());
+        turnedCell(from.cell(), turnedSize({n.x / factor, n.y / factor, n.z / factor}, part.turns),
+                   part.turns);
     const Vec3i sample = cell * factor + (p - coarse * factor);
     if (!part.field.values.contains(sample)) {
       throw InputError("the finer example does not fit the origins: they name cell " +
@@ -98,10 +84,7 @@ SynthesisResult addDetail(std::span<const DistanceField* const> fine, const Orig
   if (!sheet.usable.empty()) seams.usable = &sheet.usable;
   if (factor > 1) refineSeams(copied, target, pulled, seams, progress);
   SynthesisResult result;
-  if (progress.cancelled()) {
-    result.status = SynthesisStatus::Cancelled;
-    return result;
-  }
+  progress.check();
   EvenSeamsOptions even;
   even.usable = seams.usable;
   result.field = evenSeams(sheet.field, pulled, even);

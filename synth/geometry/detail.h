@@ -13,12 +13,13 @@ namespace exemplar {
 
 /// Re-makes a result at `factor` times its resolution: each of its samples becomes factor³ samples,
 /// pulled through its origin from finer fields of the same examples, so the result gets detail that
-/// the synthesis never saw. Seams then move to where the finer fields agree best and are evened out
-/// as at the end of `synthesizeOptimized`.
+/// the synthesis never saw. Seams then move to where the finer fields agree best and are evened
+/// out, as at the end of a synthesis.
 ///
 /// `fine` holds one field for each example, of exactly `factor` times its samples along each axis,
 /// cut from the same box. `factor` is 1..16. O(samples of the finer result). The same bytes at any
-/// number of threads. Throws `InputError` for fields that do not fit the origins.
+/// number of threads. Throws `InputError` for fields that do not fit the origins, `Cancelled` when
+/// cancelled.
 SynthesisResult addDetail(std::span<const DistanceField* const> fine, const Origins& origins,
                           int factor, const Progress& progress = {});
 

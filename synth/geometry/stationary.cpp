@@ -5,35 +5,52 @@
 
 #include <algorithm>
 
-namespace exemplar {
+#include "core/cells.h"
 
-StationaryAxes findStationaryAxes(const DistanceField& example,
-                                  const Array3D<std::uint8_t>* known) {
-  StationaryAxes axes;
-  bool* flags[] = {&axes.x, &axes.y, &axes.z};
+namespace exemplar {
+namespace {
+
+/// Quarters of an axis may differ in occupancy by this share of what the example has of solid or of
+/// air, whichever is less, and by this much besides.
+constexpr double kDifference = 0.5, kLeastDifference = 0.02;
+
+}  // namespace
+
+Axes findStationaryAxes(const DistanceField& example, const Array3D<std::uint8_t>* known) {
   const Vec3i n = example.size();
-  for (int axis = 0; axis < 3; ++axis) {
-    // The occupancy of each quarter of the axis: where quarters differ by more than half of what
-    // there is (of solid or of air, whichever is less), the axis has a place of its own for things.
-    double occupied[4] = {}, count[4] = {};
-    for (std::size_t s = 0; s < example.values.count(); ++s) {
-      const Vec3i p = example.values.ijk(s);
-      if (known && !(known->contains(p) && (*known)[p])) continue;
+  double occupied[3][4] = {}, count[3][4] = {};
+  forEachCell(n, [&](const Vec3i& p) {
+    if (known && !(known->contains(p) && (*known)[p])) return;
+    const bool solid = example.values[p] < 0;
+    for (int axis = 0; axis < 3; ++axis) {
       const int part = p[axis] * 4 / n[axis];
-      occupied[part] += example.values.values()[s] < 0;
-      count[part] += 1;
+      occupied[axis][part] += solid;
+      count[axis][part] += 1;
     }
-    double low = 1, high = 0;
+  });
+  Axes axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = 1, high = 0, solid = 0, all = 0;
     for (int part = 0; part < 4; ++part) {
-      if (count[part] == 0) continue;
-      low = std::min(low, occupied[part] / count[part]);
-      high = std::max(high, occupied[part] / count[part]);
+      solid += occupied[axis][part];
+      all += count[axis][part];
+      if (count[axis][part] == 0) continue;
+      low = std::min(low, occupied[axis][part] / count[axis][part]);
+      high = std::max(high, occupied[axis][part] / count[axis][part]);
     }
-    const double mean = (occupied[0] + occupied[1] + occupied[2] + occupied[3]) /
-                        std::max(1.0, count[0] + count[1] + count[2] + count[3]);
-    *flags[axis] = high - low <= 0.5 * std::min(mean, 1 - mean) + 0.02;
+    const double mean = solid / std::max(1.0, all);
+    axes[axis] = high - low <= kDifference * std::min(mean, 1 - mean) + kLeastDifference;
   }
   return axes;
+}
+
+Axes stationaryAxes(std::span<const DistanceField* const> examples,
+                    const Array3D<std::uint8_t>* kept) {
+  Axes all = Axes::every();
+  for (std::size_t n = 0; n < examples.size(); ++n) {
+    all = all & findStationaryAxes(*examples[n], n == 0 ? kept : nullptr);
+  }
+  return all;
 }
 
 }  // namespace exemplar

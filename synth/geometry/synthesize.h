@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/origin.h"
 #include "core/progress.h"
@@ -12,17 +11,13 @@
 
 namespace exemplar {
 
-/// How geometry synthesis came out.
-enum class SynthesisStatus { Complete, Cancelled };
-
 /// What every geometry engine returns: a new field, and for each of its samples the sample of the
-/// example that it was taken from (`core/origin.h`). Where `status` is not Complete the result is
-/// partial.
+/// example that it was taken from (`core/origin.h`). A cancelled engine returns nothing; it throws
+/// `Cancelled`.
 struct SynthesisResult {
-  SynthesisStatus status = SynthesisStatus::Complete;
   DistanceField field;
   Origins origins;           ///< the same size as `field`
-  std::int64_t matches = 0;  ///< searches for a best block that were run
+  std::int64_t matches = 0;  ///< searches for a best block or patch that were run
 };
 
 }  // namespace exemplar

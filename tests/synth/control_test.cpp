@@ -1,7 +1,7 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-// What users ask of `synthesizeOptimized` beyond size and seed.
+// What users ask of `synthesizeByVoting` beyond size and seed.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "synth/geometry/optimize.h"
+#include "synth/geometry/voting/voting.h"
 #include "tests/synth/fields.h"
 
 namespace exemplar {
@@ -17,12 +17,7 @@ namespace {
 
 using namespace testing;
 
-OptimizeOptions sized(const Vec3i& size) {
-  OptimizeOptions options;
-  options.size = size;
-  options.rounds = 3;
-  return options;
-}
+VotingOptions sized(const Vec3i& size) { return {.size = size, .rounds = 3}; }
 
 /// The mean step between neighbours along an axis, inside and across the wrap.
 struct Steps {
@@ -46,11 +41,11 @@ Steps stepsAlong(const Array3D<float>& f, int axis) {
 TEST(Periodic, OppositeFacesMatch) {
   const DistanceField example = balls({40, 40, 40}, 5, 2);
   for (std::uint64_t seed = 0; seed < 2; ++seed) {
-    OptimizeOptions options = sized({33, 30, 28});
+    VotingOptions options = sized({33, 30, 28});
     options.seed = seed;
-    const Array3D<float> free = synthesizeOptimized(example, options).field.values;
+    const Array3D<float> free = synthesizeByVoting(example, options).field.values;
     options.periodic = {true, true, false};
-    const Array3D<float> wraps = synthesizeOptimized(example, options).field.values;
+    const Array3D<float> wraps = synthesizeByVoting(example, options).field.values;
     for (const int axis : {0, 1}) {
       // Steps across the wrap are like those inside; without asking for it they are not.
       EXPECT_LT(stepsAlong(wraps, axis).across, 1.25 * stepsAlong(wraps, axis).inside);
@@ -68,9 +63,9 @@ TEST(Periodic, AnAxisOfAFreeStandingObjectMayWrap) {
     example.values.values()[s] = static_cast<float>(
         std::abs(p.z - 9.5) - 4 - 1.5 * std::sin(p.x * 0.9) * std::cos(p.y * 0.7));
   }
-  OptimizeOptions options = sized({40, 32, 20});
+  VotingOptions options = sized({40, 32, 20});
   options.periodic.x = true;
-  const Array3D<float> f = synthesizeOptimized(example, options).field.values;
+  const Array3D<float> f = synthesizeByVoting(example, options).field.values;
   EXPECT_LT(stepsAlong(f, 0).across, 1.4 * stepsAlong(f, 0).inside);
   for (int j = 0; j < 32; ++j) {
     for (int i = 0; i < 40; ++i) {
@@ -97,9 +92,9 @@ struct Scan {
 
 TEST(Kept, StaysToTheBitAndTheRestIsMadeOfIt) {
   const Scan scan;
-  OptimizeOptions options = sized({40, 40, 40});
+  VotingOptions options = sized({40, 40, 40});
   options.kept = scan.kept;
-  const SynthesisResult result = synthesizeOptimized(scan.field, options);
+  const SynthesisResult result = synthesizeByVoting(scan.field, options);
   std::int64_t solid = 0, hole = 0;
   for (std::size_t s = 0; s < scan.kept.count(); ++s) {
     const Vec3i from = result.origins.values()[s].cell();
@@ -118,11 +113,11 @@ TEST(Kept, StaysToTheBitAndTheRestIsMadeOfIt) {
   EXPECT_LT(static_cast<double>(solid) / static_cast<double>(hole), 0.6);
 }
 
-TEST(Kept, AnExampleGoesOnBeyondItself) {
+TEST(Kept, AnExampleContinuesBeyondItself) {
   const DistanceField example = balls({32, 24, 24}, 4, 5);
-  OptimizeOptions options = sized({56, 24, 24});
+  VotingOptions options = sized({56, 24, 24});
   options.kept = Array3D<std::uint8_t>(options.size, 1);  // beyond the example it says nothing
-  const SynthesisResult result = synthesizeOptimized(example, options);
+  const SynthesisResult result = synthesizeByVoting(example, options);
   for (std::size_t s = 0; s < result.origins.count(); ++s) {
     const Vec3i p = result.origins.ijk(s);
     if (example.values.contains(p)) {
@@ -134,14 +129,14 @@ TEST(Kept, AnExampleGoesOnBeyondItself) {
 
 TEST(Kept, WhereOnlySolidIsKeptTheRestOfTheExampleShowsWhatIsAroundIt) {
   const DistanceField example = balls({32, 28, 28}, 5, 5);
-  OptimizeOptions options = sized({40, 28, 28});
+  VotingOptions options = sized({40, 28, 28});
   options.kept = Array3D<std::uint8_t>(options.size);
   std::int64_t solid = 0, wanted = 0;
   for (std::size_t s = 0; s < example.values.count(); ++s) {
     (*options.kept)[example.values.ijk(s)] = example.values.values()[s] < 0;
     wanted += example.values.values()[s] < 0;
   }
-  const SynthesisResult result = synthesizeOptimized(example, options);
+  const SynthesisResult result = synthesizeByVoting(example, options);
   for (std::size_t s = 0; s < result.origins.count(); ++s) {
     const Vec3i p = result.origins.ijk(s);
     solid += result.field.values[p] < 0;
@@ -158,13 +153,13 @@ TEST(Guide, SteersWhereTheSolidIs) {
   // and the other way round.
   const DistanceField example = ground({48, 48, 32}, 6);
   const auto rise = [&](double sign) {
-    OptimizeOptions options = sized({64, 32, 32});
+    VotingOptions options = sized({64, 32, 32});
     options.guide = Array3D<float>(options.size);
     for (std::size_t s = 0; s < options.guide->count(); ++s) {
       const Vec3i p = options.guide->ijk(s);
       options.guide->values()[s] = static_cast<float>(p.z - 13 - sign * (p.x - 31.5) / 8);
     }
-    const Array3D<float> f = synthesizeOptimized(example, options).field.values;
+    const Array3D<float> f = synthesizeByVoting(example, options).field.values;
     double left = 0, right = 0;
     for (std::size_t s = 0; s < f.count(); ++s) {
       const int x = f.ijk(s).x;
@@ -177,10 +172,10 @@ TEST(Guide, SteersWhereTheSolidIs) {
   EXPECT_LT(rise(-1), -1.5);
 }
 
-TEST(SeveralExamples, AllTakePartAndOriginsTellWhich) {
+TEST(SeveralExamples, AllTakePartAndOriginsSayWhich) {
   const DistanceField fine = balls({32, 32, 32}, 3, 7), coarse = balls({36, 28, 24}, 6, 8);
   const DistanceField* examples[] = {&fine, &coarse};
-  const SynthesisResult result = synthesizeOptimized(examples, sized({48, 40, 24}));
+  const SynthesisResult result = synthesizeByVoting(examples, sized({48, 40, 24}));
   std::int64_t from[2] = {}, wrong = 0;
   for (std::size_t s = 0; s < result.origins.count(); ++s) {
     const Origin origin = result.origins.values()[s];
@@ -195,12 +190,12 @@ TEST(SeveralExamples, AllTakePartAndOriginsTellWhich) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(Rotations, PartsAreTurnedAndOriginsTellHow) {
+TEST(Rotations, PartsAreTurnedAndOriginsSayHow) {
   const DistanceField example = balls({32, 28, 24}, 4, 9);
-  OptimizeOptions options = sized({40, 40, 24});
-  options.stationary = StationaryAxes{};
+  VotingOptions options = sized({40, 40, 24});
+  options.stationary = Axes::every();
   options.rotations = true;
-  const SynthesisResult result = synthesizeOptimized(example, options);
+  const SynthesisResult result = synthesizeByVoting(example, options);
   std::set<int> turns;
   for (std::size_t s = 0; s < result.origins.count(); ++s) {
     const Origin origin = result.origins.values()[s];
@@ -218,33 +213,33 @@ TEST(Rotations, PartsAreTurnedAndOriginsTellHow) {
   EXPECT_TRUE(turns.count(1) || turns.count(3));
   for (const int t : {0, 1, 2, 3}) EXPECT_EQ(turns.count(t), turns.count(10 + t));
   options.rotations = false;
-  for (const Origin& origin : synthesizeOptimized(example, options).origins.values()) {
+  for (const Origin& origin : synthesizeByVoting(example, options).origins.values()) {
     ASSERT_EQ(origin.turns, 0);
   }
 }
 
 TEST(Rotations, AreRefusedWherePlacesMatter) {
-  OptimizeOptions options = sized({16, 16, 16});
+  VotingOptions options = sized({16, 16, 16});
   options.rotations = true;
-  options.stationary = StationaryAxes{false, true, true};
-  EXPECT_THROW(synthesizeOptimized(balls({16, 16, 16}, 4, 9), options), InputError);
+  options.stationary = Axes{false, true, true};
+  EXPECT_THROW(synthesizeByVoting(balls({16, 16, 16}, 4, 9), options), InputError);
 }
 
 TEST(Control, IsTheSameAtAnyNumberOfThreads) {
   const DistanceField a = balls({28, 28, 28}, 4, 7), b = balls({24, 30, 28}, 4, 8);
   const DistanceField* examples[] = {&a, &b};
-  OptimizeOptions options = sized({36, 28, 28});
+  VotingOptions options = sized({36, 28, 28});
   options.periodic = {false, true, false};
   options.rotations = true;
-  options.stationary = StationaryAxes{};
+  options.stationary = Axes::every();
   options.kept = Array3D<std::uint8_t>(options.size);
   for (std::size_t s = 0; s < options.kept->count(); ++s) {
     options.kept->values()[s] = options.kept->ijk(s).x < 12;
   }
   options.guide = Array3D<float>(options.size, -1);
   SynthesisResult one, eight;
-  withThreads(1, [&] { one = synthesizeOptimized(examples, options); });
-  withThreads(8, [&] { eight = synthesizeOptimized(examples, options); });
+  withThreads(1, [&] { one = synthesizeByVoting(examples, options); });
+  withThreads(8, [&] { eight = synthesizeByVoting(examples, options); });
   EXPECT_EQ(one.origins, eight.origins);
   EXPECT_EQ(one.field.values, eight.field.values);
 }
@@ -254,13 +249,13 @@ TEST(Control, BadInputIsRefused) {
   DistanceField other = example;
   other.voxelSize = 2;
   const DistanceField* examples[] = {&example, &other};
-  EXPECT_THROW(synthesizeOptimized(examples, sized({16, 16, 16})), InputError);
-  OptimizeOptions options = sized({16, 16, 16});
+  EXPECT_THROW(synthesizeByVoting(examples, sized({16, 16, 16})), InputError);
+  VotingOptions options = sized({16, 16, 16});
   options.kept = Array3D<std::uint8_t>({8, 8, 8});
-  EXPECT_THROW(synthesizeOptimized(example, options), InputError);
+  EXPECT_THROW(synthesizeByVoting(example, options), InputError);
   options.kept.reset();
   options.guide = Array3D<float>({8, 8, 8});
-  EXPECT_THROW(synthesizeOptimized(example, options), InputError);
+  EXPECT_THROW(synthesizeByVoting(example, options), InputError);
 }
 
 }  // namespace

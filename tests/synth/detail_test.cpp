@@ -9,7 +9,8 @@
 
 #include "core/error.h"
 #include "sdf/resample.h"
-#include "synth/geometry/optimize.h"
+#include "synth/geometry/pyramid/source_part.h"
+#include "synth/geometry/quilting/quilting.h"
 #include "tests/synth/fields.h"
 
 namespace exemplar {
@@ -58,10 +59,7 @@ TEST(AddDetail, TurnsAreFollowed) {
 
 TEST(AddDetail, ASynthesisGetsTheFinerExamplesSurface) {
   const Versions v;
-  OptimizeOptions options;
-  options.size = {44, 28, 24};
-  options.rounds = 3;
-  const SynthesisResult coarse = synthesizeOptimized(v.coarse, options);
+  const SynthesisResult coarse = synthesizeByQuilting(v.coarse, {.size = {44, 28, 24}});
   const SynthesisResult fine = addDetail(v.examples, coarse.origins, 2);
   ASSERT_EQ(fine.field.size(), (Vec3i{88, 56, 48}));
   std::int64_t differ = 0;

@@ -12,7 +12,7 @@
 #include "core/origin.h"
 #include "core/progress.h"
 #include "sdf/distance_field.h"
-#include "synth/geometry/pyramid.h"
+#include "synth/geometry/pyramid/pyramid.h"
 #include "synth/geometry/synthesize.h"
 
 /// Examples made from formulas, voxels of length 1, and checks of what every engine promises.

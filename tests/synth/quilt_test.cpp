@@ -1,7 +1,7 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include "synth/geometry/quilt.h"
+#include "synth/geometry/quilting/quilt.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using namespace testing;
 
-/// A wall with air around it and bricks that stand out of it.
+/// A wall with air around it and bricks that protrude from it.
 DistanceField wall() {
   DistanceField field = constant({24, 12, 24}, 0);
   for (std::size_t s = 0; s < field.values.count(); ++s) {
@@ -32,9 +32,9 @@ DistanceField wall() {
 }
 
 PyramidSources moved(const PyramidLevel& level, const Vec3i& shift) {
-  PyramidSources sources(level.framedTarget());
+  PyramidSources sources(level.target.framed());
   for (std::size_t s = 0; s < sources.count(); ++s) {
-    sources.values()[s] = level.source.clamped(sources.ijk(s) + shift);
+    sources.values()[s] = level.source.values.clamped(sources.ijk(s) + shift);
   }
   return sources;
 }
@@ -44,7 +44,7 @@ TEST(Quilt, IsMadeOfFewLargeBlocksOfTheExample) {
   const PyramidSources sources = quilt(level, {});
   std::set<std::tuple<int, int, int>> offsets;
   for (std::size_t s = 0; s < sources.count(); ++s) {
-    ASSERT_TRUE(level.source.contains(sources.values()[s]));
+    ASSERT_TRUE(level.source.values.contains(sources.values()[s]));
     const Vec3i d = sources.values()[s] - sources.ijk(s);
     offsets.insert({d.x, d.y, d.z});
   }
@@ -84,7 +84,7 @@ TEST(Quilt, WhatIsLeftAfterCuttingCounts) {
   const PyramidLevel level = levelOf(balls({20, 20, 20}, 4, 1), {20, 20, 20});
   int cuts = 0;
   QuiltOptions options;
-  options.cut = [&](PyramidSources& sources) {
+  options.cut = [&](PyramidSources& sources, const Progress&) {
     ++cuts;
     sources = moved(level, {0, 0, 0});
   };
@@ -108,7 +108,7 @@ TEST(Quilt, BlocksStayWithinTheirWindow) {
   EXPECT_GT(farthest, 4);
 }
 
-TEST(Quilt, AnExampleThatRepeatsGoesOnRepeating) {
+TEST(Quilt, AnExampleThatRepeatsContinuesToRepeat) {
   // Blocks that agree with what is there are those at whole periods; with no price on use or
   // variety nothing else is drawn, where there is room for a period beside a block.
   const PyramidLevel level = levelOf(waves({20, 20, 20}, 5), {37, 33, 25});
@@ -127,11 +127,11 @@ TEST(Quilt, AnExampleThatRepeatsGoesOnRepeating) {
   }
 }
 
-TEST(Quilt, BlocksKeepInStepWithARepetition) {
+TEST(Quilt, BlocksStayAlignedWithARepetition) {
   // Bricks: one step is along x, the other is not along an axis.
   const std::array<Vec3d, 3> steps{{{9, 0, 0}, {4.5, 6, 0}, {0, 0, 7}}};
   const PyramidLevel level = levelOf(lattice({36, 30, 24}, steps, 2.2, 0.3), {72, 60, 48});
-  const auto outOfStep = [&](const QuiltOptions& options) {
+  const auto unaligned = [&](const QuiltOptions& options) {
     Repetition repetition;
     repetition.basis.assign(steps.begin(), steps.end());
     const PyramidSources sources = quilt(level, options);
@@ -142,9 +142,9 @@ TEST(Quilt, BlocksKeepInStepWithARepetition) {
     return static_cast<double>(out) / static_cast<double>(sources.count());
   };
   QuiltOptions options;
-  EXPECT_GT(outOfStep(options), 0.2);
+  EXPECT_GT(unaligned(options), 0.2);
   options.repetition.basis.assign(steps.begin(), steps.end());
-  EXPECT_EQ(outOfStep(options), 0);
+  EXPECT_EQ(unaligned(options), 0);
 }
 
 TEST(Quilt, BlocksOfARepetitionMeetTheOtherSide) {
@@ -163,7 +163,7 @@ TEST(Quilt, BlocksOfARepetitionMeetTheOtherSide) {
   const Array3D<float> target = gather(level, sources);
   for (std::size_t s = 0; s < target.count(); ++s) {
     // The example repeats exactly, so every sample, those in the margins too, is known.
-    const Vec3i p = target.ijk(s) - level.before;
+    const Vec3i p = target.ijk(s) - level.target.margin.before;
     if (p.z < 0 || p.z >= example.size().z) continue;  // in the frame
     const Vec3i q{(p.x % 10 + 10) % 10, (p.y % 8 + 8) % 8, p.z};
     ASSERT_NEAR(target.values()[s], std::clamp(example.values[q], -4.0f, 4.0f), 1e-5);
@@ -177,7 +177,7 @@ TEST(Quilt, EveryPartOfTheExampleGetsItsTurn) {
     options.use = price;
     double share = 0;
     for (options.seed = 0; options.seed < 2; ++options.seed) {
-      Array3D<std::uint8_t> marks(level.source.size());
+      Array3D<std::uint8_t> marks(level.source.values.size());
       const PyramidSources sources = quilt(level, options);
       for (const Vec3i& cell : sources.values()) marks[cell] = 1;
       share += static_cast<double>(std::count(marks.values().begin(), marks.values().end(), 1)) /
@@ -189,7 +189,7 @@ TEST(Quilt, EveryPartOfTheExampleGetsItsTurn) {
   EXPECT_GE(used(0.3), used(0));
 }
 
-TEST(Quilt, NothingSolidStandsInTheFrameWhereAnObjectEndsAsItDid) {
+TEST(Quilt, NothingSolidIsInTheFrameWhereAnObjectEndsAsItDid) {
   // An object with air around it, twice as long: its blocks at the ends show air there.
   const DistanceField example = wall();
   const PyramidLevel level = levelOf(example, {48, 12, 24});
@@ -197,7 +197,7 @@ TEST(Quilt, NothingSolidStandsInTheFrameWhereAnObjectEndsAsItDid) {
   std::int64_t solid = 0, frame = 0;
   for (std::size_t s = 0; s < target.count(); ++s) {
     const Vec3i p = target.ijk(s);
-    if (p.x >= level.before.x && p.x < level.before.x + 48) continue;
+    if (p.x >= level.target.margin.before.x && p.x < level.target.margin.before.x + 48) continue;
     ++frame;
     solid += target.values()[s] < 0;
   }
@@ -209,7 +209,7 @@ TEST(Quilt, TakesSmallThinAndOddSizes) {
     for (const Vec3i& from : {Vec3i{16, 15, 9}, Vec3i{20, 1, 20}, Vec3i{2, 3, 30}}) {
       const PyramidLevel level = levelOf(balls(from, 4, 1), size);
       const PyramidSources sources = quilt(level, {});
-      for (const Vec3i& cell : sources.values()) ASSERT_TRUE(level.source.contains(cell));
+      for (const Vec3i& cell : sources.values()) ASSERT_TRUE(level.source.values.contains(cell));
     }
   }
 }

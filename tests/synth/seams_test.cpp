@@ -1,7 +1,7 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include "synth/geometry/seams.h"
+#include "synth/geometry/seams/seams.h"
 
 #include <gtest/gtest.h>
 
@@ -310,7 +310,7 @@ TEST(RefineSeams, StopsSoundlyWhenCancelled) {
   const std::int64_t before = seamCost(p.example, p.target, p.origins);
   Puzzle all = p;
   refineSeams(all.example, all.target, all.origins);
-  refineSeams(p.example, p.target, p.origins, {}, cancel.progress());
+  EXPECT_THROW(refineSeams(p.example, p.target, p.origins, {}, cancel.progress()), Cancelled);
   EXPECT_TRUE(cancel.happened());
   EXPECT_LE(seamCost(p.example, p.target, p.origins), before);
   EXPECT_NE(p.origins, all.origins);

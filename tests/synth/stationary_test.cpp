@@ -14,13 +14,13 @@ using namespace testing;
 
 TEST(StationaryAxes, BallsRepeatAlongAllAxes) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    EXPECT_EQ(findStationaryAxes(balls({40, 40, 40}, 4, seed)), (StationaryAxes{true, true, true}));
+    EXPECT_EQ(findStationaryAxes(balls({40, 40, 40}, 4, seed)), (Axes{true, true, true}));
   }
 }
 
 TEST(StationaryAxes, GroundHasItsPlaceAlongZ) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    EXPECT_EQ(findStationaryAxes(ground({40, 40, 24}, seed)), (StationaryAxes{true, true, false}));
+    EXPECT_EQ(findStationaryAxes(ground({40, 40, 24}, seed)), (Axes{true, true, false}));
   }
 }
 
@@ -31,12 +31,29 @@ TEST(StationaryAxes, AWallHasItsPlaceAcross) {
     const int y = wall.values.ijk(s).y;
     if (y >= 8 && y < 16) wall.values.values()[s] = -2;
   }
-  EXPECT_EQ(findStationaryAxes(wall), (StationaryAxes{true, false, true}));
+  EXPECT_EQ(findStationaryAxes(wall), (Axes{true, false, true}));
 }
 
 TEST(StationaryAxes, NothingAndEverythingAreTheSameEverywhere) {
-  EXPECT_EQ(findStationaryAxes(constant({9, 3, 1}, 1)), StationaryAxes{});
-  EXPECT_EQ(findStationaryAxes(constant({9, 3, 1}, -1)), StationaryAxes{});
+  EXPECT_EQ(findStationaryAxes(constant({9, 3, 1}, 1)), Axes::every());
+  EXPECT_EQ(findStationaryAxes(constant({9, 3, 1}, -1)), Axes::every());
+}
+
+TEST(StationaryAxes, OfSeveralAreThoseOfAll) {
+  const DistanceField all = balls({40, 40, 40}, 4, 0), across = ground({40, 40, 24}, 0);
+  const DistanceField* examples[] = {&all, &across};
+  EXPECT_EQ(stationaryAxes(examples), (Axes{true, true, false}));
+  // Of the first only what is kept counts: here a lower half that is full.
+  DistanceField heap = all;
+  Array3D<std::uint8_t> kept(heap.size(), 1);
+  for (std::size_t s = 0; s < kept.count(); ++s) {
+    if (heap.values.ijk(s).z >= 20) continue;
+    heap.values.values()[s] = -4;
+    kept.values()[s] = 0;
+  }
+  const DistanceField* one[] = {&heap};
+  EXPECT_FALSE(stationaryAxes(one).z);
+  EXPECT_TRUE(stationaryAxes(one, &kept).z);
 }
 
 }  // namespace

@@ -3,16 +3,17 @@
 
 // How long geometry synthesis takes, all cores, in samples of the result a second. Block copying
 // by the paper's search tree is the baseline of every other way to search, which give the same
-// bytes; patch optimisation is the default method. n is the side of the example and half that of
-// the result.
+// bytes; quilting is the default engine of plain examples, voting that of everything else. n is the
+// side of the example and half that of the result.
 
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
 
 #include "synth/geometry/blocks.h"
-#include "synth/geometry/optimize.h"
-#include "synth/geometry/seams.h"
+#include "synth/geometry/quilting/quilting.h"
+#include "synth/geometry/seams/seams.h"
+#include "synth/geometry/voting/voting.h"
 #include "tests/synth/fields.h"
 
 namespace exemplar {
@@ -38,17 +39,29 @@ void blocks(benchmark::State& state, BlockSearch search, bool ground) {
   count(state, options.size);
 }
 
-void optimized(benchmark::State& state) {
+void quilted(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
   const DistanceField example = packing(n);
-  OptimizeOptions options;
+  QuiltingOptions options;
   options.size = {2 * n, 2 * n, 2 * n};
   SynthesisResult result;
-  for (auto _ : state) result = synthesizeOptimized(example, options);
+  for (auto _ : state) result = synthesizeByQuilting(example, options);
   for (const Origin& origin : result.origins.values()) {
     if (!example.values.contains(origin.cell())) std::abort();
   }
   count(state, options.size);
+}
+
+void voted(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0));
+  const DistanceField example = packing(n);
+  const Vec3i size{2 * n, 2 * n, 2 * n};
+  SynthesisResult result;
+  for (auto _ : state) result = synthesizeByVoting(example, {.size = size});
+  for (const Origin& origin : result.origins.values()) {
+    if (!example.values.contains(origin.cell())) std::abort();
+  }
+  count(state, size);
 }
 
 /// Seams between random cubes of an example: more than any engine leaves.
@@ -94,12 +107,13 @@ BENCHMARK_CAPTURE(blocks, groundScan, BlockSearch::Scan, true)
     ->Arg(64)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(optimized)
-    ->Name("optimize/balls")
+BENCHMARK(quilted)
+    ->Name("quilting/balls")
     ->Arg(32)
     ->Arg(64)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(voted)->Name("voting/balls")->Arg(32)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(seams)->Name("seams/cubes")->Arg(32)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "mesh/primitives.h"
 #include "reconstruct/reconstruct.h"
 #include "sdf/mesh_to_sdf.h"
-#include "synth/geometry/optimize.h"
+#include "synth/geometry/quilting/quilting.h"
 
 int main(int argc, char** argv) try {
   using namespace exemplar;
@@ -23,7 +23,7 @@ int main(int argc, char** argv) try {
 
   const Vec3i n = example.size();
   const SynthesisResult more =
-      synthesizeOptimized(example, {.size = {2 * n.x, 2 * n.y, n.z}, .seed = 1});
+      synthesizeByQuilting(example, {.size = {2 * n.x, 2 * n.y, n.z}, .seed = 1});
   const Reconstruction surface = reconstructSurface(more.field, more.origins, {example, &balls});
 
   writeMesh(argv[1], surface.mesh);

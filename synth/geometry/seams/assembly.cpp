@@ -1,0 +1,125 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/seams/assembly.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "synth/geometry/pyramid/source_part.h"
+#include "synth/geometry/seams/broken_pieces.h"
+#include "synth/geometry/seams/even_seams.h"
+#include "synth/geometry/seams/level_seams.h"
+
+namespace exemplar {
+namespace {
+
+/// Many small steps rather than a few that show. What is copied is near
+/// enough to what was wanted.
+constexpr SeamOptions kFineSeams{
+    .passes = 1, .fidelity = 0, .length = 0.005, .slope = 2, .squared = true};
+/// How far beyond its box a periodic result's seams are evened out with it, in voxels.
+constexpr int kWrapMargin = 12;
+
+class Assembly {
+ public:
+  Assembly(const std::vector<SourcePart>& parts, const PyramidLevel& level, const Vec3i& size,
+           const Array3D<std::uint8_t>* kept)
+      : parts_(parts), level_(level), size_(size), kept_(kept), sheet_(parts) {}
+
+  SynthesisResult run(const PyramidSources& sources, const Array3D<float>& target,
+                      const Progress& progress) {
+    SynthesisResult result;
+    progress.report("cutting seams", 0);
+    Origins origins(size_);
+    for (std::size_t s = 0; s < origins.count(); ++s) {
+      const Vec3i cell = sources[origins.ijk(s) + level_.target.margin.before];
+      const std::size_t part = level_.source.partOf(cell);
+      const Vec3i inside =
+          parts_[part].field.values.clamped(cell - level_.source.parts[part].begin);
+      origins.values()[s] = Origin(inside + Vec3i{sheet_.first[part], 0, 0});
+    }
+    Array3D<float> copied = sheet_.field.values;
+    for (float& v : copied.values()) v /= static_cast<float>(sheet_.field.voxelSize);
+    SeamOptions seams = kFineSeams;
+    seams.fixed = kept_;
+    if (!sheet_.usable.empty()) seams.usable = &sheet_.usable;
+    Array3D<std::uint8_t> air = level_.airSamples();
+    if (!air.empty()) {
+      air = withoutMargins(level_, air);
+      seams.air = &air;
+    }
+    alignPieces(copied, origins, 1, seams);
+    refineSeamsAround(copied, withoutMargins(level_, target), level_.target.periodic, seams,
+                      origins, progress.part(0, 0.6));
+    progress.report("clearing broken pieces", 0.6);
+    dropBrokenPieces(sheet_.field, origins, {seams.usable, seams.fixed});
+    result.field = even(origins, seams);
+    // What is thin may have come apart below the surface: that goes as well, and what little is
+    // left after evening once more goes as it is copied.
+    BrokenPiecesOptions pieces{seams.usable, seams.fixed, &result.field.values};
+    if (dropBrokenPieces(sheet_.field, origins, pieces) > 0) {
+      result.field = even(origins, seams);
+      const Origins before = origins;
+      dropBrokenPieces(sheet_.field, origins, pieces);
+      for (std::size_t s = 0; s < origins.count(); ++s) {
+        if (origins.values()[s] == before.values()[s]) continue;
+        result.field.values.values()[s] = sheet_.field.values[origins.values()[s].cell()];
+      }
+    }
+    result.origins = std::move(origins);
+    for (Origin& origin : result.origins.values()) origin = sheet_.toExample(parts_, origin);
+    return result;
+  }
+
+ private:
+  DistanceField even(const Origins& origins, const SeamOptions& seams) const {
+    EvenSeamsOptions options;
+    options.fixed = seams.fixed;
+    options.usable = seams.usable;
+    if (!level_.target.periodic.any()) return evenSeams(sheet_.field, origins, options);
+    // With a margin that shows what lies at the other side, cut off again.
+    Vec3i margin{0, 0, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (level_.target.periodic[axis]) margin[axis] = std::min(kWrapMargin, origins.size()[axis]);
+    }
+    const Vec3i n = origins.size();
+    Origins around(n + margin * 2);
+    Array3D<std::uint8_t> fixed;
+    if (seams.fixed) {
+      fixed = Array3D<std::uint8_t>(around.size());
+      options.fixed = &fixed;
+    }
+    for (std::size_t s = 0; s < around.count(); ++s) {
+      Vec3i p = around.ijk(s) - margin;
+      for (int axis = 0; axis < 3; ++axis) p[axis] = (p[axis] + n[axis]) % n[axis];
+      around.values()[s] = origins[p];
+      if (seams.fixed) fixed.values()[s] = (*seams.fixed)[p];
+    }
+    DistanceField field = evenSeams(sheet_.field, around, options);
+    Array3D<float> inner(n);
+    for (std::size_t s = 0; s < inner.count(); ++s) {
+      inner.values()[s] = field.values[inner.ijk(s) + margin];
+    }
+    field.values = std::move(inner);
+    return field;
+  }
+
+  const std::vector<SourcePart>& parts_;
+  const PyramidLevel& level_;
+  Vec3i size_;
+  const Array3D<std::uint8_t>* kept_;
+  SourceSheet sheet_;
+};
+
+}  // namespace
+
+SynthesisResult assemble(const std::vector<SourcePart>& parts, const PyramidLevel& level,
+                         const PyramidSources& sources, const Array3D<float>& target,
+                         const Vec3i& size, const Array3D<std::uint8_t>* kept,
+                         const Progress& progress) {
+  return Assembly(parts, level, size, kept).run(sources, target, progress);
+}
+
+}  // namespace exemplar
