@@ -10,6 +10,7 @@ set(exemplar_packages
   "OpenVDB COMPONENTS openvdb"
   "embree 3.13 CONFIG"
   "OpenMesh CONFIG"
+  "hwy CONFIG"
   PNG JPEG ZLIB CaDiCaL)
 
 # OpenVDB ships a find module outside CMake's own path, and CaDiCaL's stands beside this file. For

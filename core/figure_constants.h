@@ -7,9 +7,26 @@
 /// is measured by: a change here changes both.
 namespace exemplar {
 
-/// Side of the windows by which likeness is measured, cells. Synthesis keeps windows of this size
-/// whole where the halves of an example meet.
+// Likeness is measured window by window (`measure/patch_likeness.h`); synthesis keeps parts whole
+// that are at least as long.
+
+/// The side of a window, in cells: 11³ cells are compared. After Wu and Zheng ("Learning to
+/// generate 3D shapes from a single example", ACM Transactions on Graphics 41(6), 2022,
+/// doi:10.1145/3550454.3555480) and the evaluation in their program.
 inline constexpr int kLikenessWindow = 11;
+
+/// The side of a window's core, in cells: a window counts where its core is partly solid and partly
+/// empty.
+inline constexpr int kLikenessCore = 3;
+
+/// The step between the windows that are looked up, in cells.
+inline constexpr int kLikenessStride = 5;
+
+/// The intersection over union above which two windows are alike. A flat surface through the middle
+/// of a window is no longer alike when it moves by (1 - 0.95) / 0.95 x 11 / 2 = 0.29 voxels.
+inline constexpr double kLikenessThreshold = 0.95;
+
+// Broken pieces.
 
 /// Contacts thinner than this do not join two bodies, voxels: pieces are told apart this far below
 /// the surface where they would otherwise be one.

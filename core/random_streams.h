@@ -10,6 +10,10 @@
 namespace exemplar::stream {
 
 enum Name : std::uint32_t {
+  // search
+  kCellFeatures = 0x6366,  ///< which cells of a source its features are chosen by
+  kPatchMatch = 0x706d,
+  kPatchFeatures = 0x7063,  ///< which patches their principal components are taken from
   // synth/geometry
   kBlockSeeding = 0xb10c,  ///< what samples that are not made yet count as
   kBlockStart = 0xb10d,    ///< where the first block of a level comes from

@@ -8,7 +8,7 @@
 
 namespace exemplar {
 
-/// The ways in which synthesis ends in nothing: all of them score well somewhere.
+/// The ways in which synthesis fails without saying so: each of them scores well somewhere.
 enum class Collapse {
   None,
   AllEmpty,  ///< the surface is gone, and so is the solid

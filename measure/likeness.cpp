@@ -9,11 +9,12 @@
 namespace exemplar {
 
 Likeness measureLikeness(const DistanceField& example, const DistanceField& result,
-                         const LikenessOptions& options) {
+                         const LikenessOptions& options, const Progress& progress) {
+  progress.report("measuring likeness", 0);
   requireSameVoxels(example, result);
   const Occupancy e(example), r(result);
   const auto patches = [&](const Occupancy& asked, const Occupancy& reference, int stride,
-                           WindowBorder border) {
+                           WindowBorder border, double from, double to) {
     PatchLikenessOptions o;
     o.border = border;
     o.referenceStride = stride;
@@ -21,21 +22,22 @@ Likeness measureLikeness(const DistanceField& example, const DistanceField& resu
     o.windows = options.windows;
     o.averaged = border == WindowBorder::Padded && stride == 1 ? o.averaged : 0;
     o.seed = options.seed;
-    return patchLikeness(asked, reference, o);
+    return patchLikeness(asked, reference, o, progress.part(from, to));
   };
 
   Likeness likeness;
-  likeness.published = patches(r, e, 5, WindowBorder::Padded);
-  likeness.dense = patches(r, e, 1, WindowBorder::Padded);
-  likeness.coverage = patches(e, r, 1, WindowBorder::Padded);
+  likeness.published = patches(r, e, kLikenessStride, WindowBorder::Padded, 0, 0.05);
+  likeness.dense = patches(r, e, 1, WindowBorder::Padded, 0.05, 0.25);
+  likeness.coverage = patches(e, r, 1, WindowBorder::Padded, 0.25, 0.45);
   if (hasInteriorWindows(e.size()) && hasInteriorWindows(r.size())) {
-    likeness.denseInterior = patches(r, e, 1, WindowBorder::Interior);
-    likeness.coverageInterior = patches(e, r, 1, WindowBorder::Interior);
+    likeness.denseInterior = patches(r, e, 1, WindowBorder::Interior, 0.45, 0.6);
+    likeness.coverageInterior = patches(e, r, 1, WindowBorder::Interior, 0.6, 0.75);
   }
   PatchDistanceOptions distance;
   distance.seed = options.seed;
-  likeness.patches = patchDistance(example, result, distance);
+  likeness.patches = patchDistance(example, result, distance, progress.part(0.75, 0.9));
 
+  progress.report("measuring surface", 0.9);
   likeness.exampleOccupancy = solidFraction(e);
   likeness.resultOccupancy = solidFraction(r);
   likeness.exampleSurface = surfaceDensity(e);
@@ -44,7 +46,7 @@ Likeness measureLikeness(const DistanceField& example, const DistanceField& resu
     likeness.occupancyRatio = likeness.resultOccupancy / likeness.exampleOccupancy;
   if (likeness.exampleSurface > 0)
     likeness.surfaceRatio = likeness.resultSurface / likeness.exampleSurface;
-  const Pieces pieces = comparePieces(example, result);
+  const Pieces pieces = comparePieces(example, result, progress.part(0.92, 1));
   if (pieces.depth == 0 || !options.contoured) likeness.pieces = pieces;
   return likeness;
 }

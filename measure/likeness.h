@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/figure_constants.h"
+#include "core/progress.h"
 #include "measure/patch_distance.h"
 #include "measure/patch_likeness.h"
 #include "measure/pieces.h"
@@ -14,8 +16,8 @@
 namespace exemplar {
 
 struct LikenessOptions {
-  double threshold = 0.95;  ///< the IoU from which windows count as alike; 0..1
-  int windows = 1000;       ///< windows drawn for each figure; >= 1
+  double threshold = kLikenessThreshold;  ///< the IoU above which windows count as alike; 0..1
+  int windows = 1000;                     ///< windows drawn for each figure; >= 1
   std::uint64_t seed = 0;
   /// The result's field was measured from a contoured surface (`sampleMeshResult`), where bodies
   /// that rest on each other have become one.
@@ -40,8 +42,8 @@ struct Likeness {
 
 /// All figures of likeness, from the fields alone. At 128³ about a second on two cores; the same
 /// bytes at any number of threads. Throws `InputError` where the fields' voxel sizes differ or one
-/// has no samples.
+/// has no samples, and `Cancelled`.
 Likeness measureLikeness(const DistanceField& example, const DistanceField& result,
-                         const LikenessOptions& options = {});
+                         const LikenessOptions& options = {}, const Progress& progress = {});
 
 }  // namespace exemplar

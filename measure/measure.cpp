@@ -9,19 +9,12 @@ Measures measure(const DistanceField& example, const DistanceField& result,
                  const MeasureInput& input, const MeasureOptions& options,
                  const Progress& progress) {
   Measures m;
-  const auto begin = [&](const char* stage, double fraction) {
-    progress.report(stage, fraction);
-    if (progress.cancelled()) m.status = MeasureStatus::Cancelled;
-    return m.status == MeasureStatus::Complete;
-  };
-
-  if (!begin("measuring likeness", 0)) return m;
-  m.likeness = measureLikeness(example, result, options.likeness);
-  if (!begin("measuring novelty", 0.5)) return m;
-  m.novelty = measureNovelty(example, result, input.origins, options.exampleIndex);
-  if (!begin("measuring seams", 0.7)) return m;
-  m.seams = measureSeams(example, result, input.origins, options.exampleIndex);
-  if (!begin("checking the mesh", 0.8)) return m;
+  m.likeness = measureLikeness(example, result, options.likeness, progress.part(0, 0.5));
+  m.novelty =
+      measureNovelty(example, result, input.origins, options.exampleIndex, progress.part(0.5, 0.7));
+  m.seams =
+      measureSeams(example, result, input.origins, options.exampleIndex, progress.part(0.7, 0.8));
+  progress.report("checking the mesh", 0.8);
   if (input.mesh) m.mesh = meshHealth(*input.mesh, {.selfIntersections = true});
 
   const Likeness& l = m.likeness;

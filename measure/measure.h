@@ -28,23 +28,20 @@ struct MeasureOptions {
   int exampleIndex = 0;  ///< the number that the example has in the origins
 };
 
-enum class MeasureStatus { Complete, Cancelled };
-
 /// Every figure of one result against its example.
 struct Measures {
-  MeasureStatus status = MeasureStatus::Complete;
   Likeness likeness;
   Novelty novelty;
   Seams seams;
   std::optional<MeshHealth> mesh;  ///< where there is a mesh
-  CollapseSigns signs;             ///< what `collapse` was told by
+  CollapseSigns signs;             ///< what `collapse` was judged by
   Collapse collapse = Collapse::None;
 };
 
 /// Measures `result` against `example`: likeness, novelty and seams from the fields, more of the
 /// latter two from origins, mesh health from a mesh. At 128³ about two seconds on two cores, and as
 /// long as `meshHealth` takes. The same bytes at any number of threads. Throws `InputError` where
-/// inputs do not fit together. A cancelled one holds only what was done.
+/// inputs do not fit together, and `Cancelled`.
 Measures measure(const DistanceField& example, const DistanceField& result,
                  const MeasureInput& input = {}, const MeasureOptions& options = {},
                  const Progress& progress = {});

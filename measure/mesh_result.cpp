@@ -55,7 +55,7 @@ Vec3d guessedSize(const Box3d& content, const DistanceField& example) {
   message << "the mesh lies at " << content.min.x << ", " << content.min.y << ", " << content.min.z
           << " to " << content.max.x << ", " << content.max.y << ", " << content.max.z
           << " voxels, beyond the box of " << size.x << " x " << size.y << " x " << size.z
-          << " samples that it is said to fill; give the size that it was made with";
+          << " samples; give the size that the result was made with";
   throw InputError(message.str());
 }
 

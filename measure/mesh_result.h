@@ -18,18 +18,18 @@ struct MeshResultOptions {
   std::optional<Vec3i> size;
 };
 
-/// Samples a result given as a mesh where the field stood that it was contoured from, so that it
-/// can be measured beside its example.
+/// Samples a result given as a mesh where the field that it was contoured from had its samples, so
+/// that it can be measured beside its example.
 ///
-/// Windows of cells tell a surface from the same surface half a voxel away, so the samples stand
-/// where a synthesis puts them: on the example's own, continued. The box begins at the low corner
-/// of the example's, and what its faces cut of the mesh is a cut, not a surface. Where no size is
-/// given, the box is the example's along axes where the mesh ends within that, and else reaches as
-/// many samples beyond the mesh's last as the example's box beyond its own: right for whole
-/// multiples of the example, up to what its border has of air; give the size of results smaller
-/// than the example.
+/// Windows of cells distinguish a surface from the same surface half a voxel away, so the samples
+/// are where a synthesis puts them: on the example's own, continued. The box begins at the low
+/// corner of the example's, and what its faces cut of the mesh is a cut, not a surface. Where no
+/// size is given, the box is the example's along axes where the mesh ends within that, and else
+/// reaches as many samples beyond the mesh's last as the example's box beyond its own: right for
+/// whole multiples of the example, up to what its border has of air; give the size of results
+/// smaller than the example.
 ///
-/// A mesh that does not begin within the example's box is none of a synthesis' here; its own
+/// A mesh that does not begin within the example's box was not synthesized there; its own
 /// bounding box is sampled then, widened to the grid of the example's samples.
 ///
 /// A result contoured by `fieldToMesh` and sampled so has the field's solid cells but for those

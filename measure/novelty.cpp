@@ -9,11 +9,13 @@
 #include <sstream>
 #include <vector>
 
+#include "core/cells.h"
+#include "core/disjoint_sets.h"
 #include "core/error.h"
+#include "core/loop_progress.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "measure/same_voxels.h"
-#include "core/disjoint_sets.h"
 
 namespace exemplar {
 namespace {
@@ -38,16 +40,20 @@ struct Shifts {
 
 /// The IoU of many placements, in their order.
 std::vector<double> ious(const Occupancy& example, const Occupancy& result,
-                         const std::vector<Vec3i>& shifts) {
+                         const std::vector<Vec3i>& shifts, const Progress& progress) {
   std::vector<double> iou(shifts.size());
+  LoopProgress placements(progress, "looking for copies", shifts.size());
   parallelFor(0, shifts.size(), 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s)
+    for (std::size_t s = begin; s < end; ++s) {
+      placements.check();
       iou[s] = intersectionOverUnion(result, example, shifts[s]);
+    }
+    placements.advance(end - begin);
   });
   return iou;
 }
 
-double verbatimRun(const Origins& origins, const DistanceField& example) {
+double verbatimRun(const Origins& origins, const DistanceField& example, const Progress& progress) {
   const Vec3i n = origins.size();
   if (origins.count() > 0xffffffffu)
     throw InputError("the result has " + text(n) +
@@ -55,19 +61,18 @@ double verbatimRun(const Origins& origins, const DistanceField& example) {
   requireMemory(static_cast<double>(origins.count()) * 8, "measuring regions of origins",
                 "measure a smaller result");
   DisjointSets regions(origins.count());
-  for (int k = 0; k < n.z; ++k)
-    for (int j = 0; j < n.y; ++j)
-      for (int i = 0; i < n.x; ++i) {
-        const auto at = static_cast<std::uint32_t>(origins.index(i, j, k));
-        const Origin& a = origins.data()[at];
-        for (int axis = 0; axis < 3; ++axis) {
-          Vec3i step{};
-          step[axis] = 1;
-          const Vec3i b = Vec3i{i, j, k} + step;
-          if (origins.contains(b) && continues(a, origins[b], step))
-            regions.join(at, static_cast<std::uint32_t>(origins.index(b)));
-        }
+  for (int k = 0; k < n.z; ++k) {
+    progress.report("measuring copied regions", static_cast<double>(k) / n.z);
+    forEachCell(CellBox{{0, 0, k}, {n.x, n.y, k + 1}}, [&](const Vec3i& p) {
+      const auto at = static_cast<std::uint32_t>(origins.index(p));
+      const Origin& a = origins.data()[at];
+      for (const Vec3i& step : {Vec3i{1, 0, 0}, Vec3i{0, 1, 0}, Vec3i{0, 0, 1}}) {
+        const Vec3i q = p + step;
+        if (origins.contains(q) && continues(a, origins[q], step))
+          regions.join(at, static_cast<std::uint32_t>(origins.index(q)));
       }
+    });
+  }
   std::vector<std::uint32_t> cells(origins.count());
   for (std::size_t c = 0; c < cells.size(); ++c)
     ++cells[regions.find(static_cast<std::uint32_t>(c))];
@@ -83,30 +88,32 @@ struct Uses {
   double entropy = 0, most = 0;         ///< in nats, and the most it could be
 };
 
-Uses countUses(const Origins& origins, const Occupancy& example, int exampleIndex) {
-  const Vec3i n = example.size();
-  Array3D<std::uint32_t> uses(n);
+Uses countUses(const Origins& origins, const Occupancy& example, int exampleIndex,
+               const Progress& progress) {
+  const CellBox box = CellBox::of(example.size());
+  Array3D<std::uint32_t> uses(example.size());
   Uses u;
-  for (const Origin& o : origins.values())
+  progress.report("measuring the use of the surface", 0);
+  for (std::size_t s = 0; s < origins.count(); ++s) {
+    if (s % 65536 == 0) progress.check();
+    const Origin& o = origins.values()[s];
     if (o.example == exampleIndex) ++uses[o.cell()];
+  }
+  progress.report("measuring the use of the surface", 0.5);
   std::vector<std::uint32_t> counts;
-  for (int k = 0; k < n.z; ++k)
-    for (int j = 0; j < n.y; ++j)
-      for (int i = 0; i < n.x; ++i) {
-        if (!example.solid(i, j, k)) continue;
-        bool open = false;
-        for (int axis = 0; axis < 3; ++axis)
-          for (const int side : {-1, 1}) {
-            Vec3i p{i, j, k};
-            p[axis] += side;
-            // What lies beyond the box is unknown, and is no surface.
-            open |= p[axis] >= 0 && p[axis] < n[axis] && !example.solid(p.x, p.y, p.z);
-          }
-        if (!open) continue;
-        ++u.surface;
-        u.total += uses(i, j, k);
-        if (uses(i, j, k) > 0) counts.push_back(uses(i, j, k));
-      }
+  forEachCell(box, [&](const Vec3i& p) {
+    if (!example.solid(p.x, p.y, p.z)) return;
+    bool open = false;
+    for (const Vec3i& step : kFaceSteps) {
+      const Vec3i q = p + step;
+      // What lies beyond the box is unknown, and is no surface.
+      open |= box.contains(q) && !example.solid(q.x, q.y, q.z);
+    }
+    if (!open) return;
+    ++u.surface;
+    u.total += uses[p];
+    if (uses[p] > 0) counts.push_back(uses[p]);
+  });
   for (const std::uint32_t c : counts) {
     const double p = static_cast<double>(c) / static_cast<double>(u.total);
     u.entropy -= p * std::log(p);
@@ -125,14 +132,14 @@ double diversity(std::span<const Occupancy> results) {
       if (results[a].size() != results[b].size())
         throw InputError("results of " + text(results[a].size()) + " and " +
                          text(results[b].size()) +
-                         " samples have no diversity; give results of one size");
+                         " samples cannot be compared; give results of one size");
       sum += 1 - intersectionOverUnion(results[a], results[b]);
     }
   return pairs == 0 ? 0 : sum / static_cast<double>(pairs);
 }
 
 double copyDistance(const Occupancy& example, const Occupancy& result,
-                    const CopyDistanceOptions& options) {
+                    const CopyDistanceOptions& options, const Progress& progress) {
   Shifts shifts;
   for (int a = 0; a < 3; ++a) {
     const int room = result.size()[a] - example.size()[a];
@@ -147,7 +154,8 @@ double copyDistance(const Occupancy& example, const Occupancy& result,
   for (int z = shifts.low.z; z <= shifts.high.z; z += stride)
     for (int y = shifts.low.y; y <= shifts.high.y; y += stride)
       for (int x = shifts.low.x; x <= shifts.high.x; x += stride) tried.push_back({x, y, z});
-  const std::vector<double> iou = ious(example, result, tried);
+  const double lattice = stride > 1 ? 0.8 : 1;  // of the work
+  const std::vector<double> iou = ious(example, result, tried, progress.part(0, lattice));
   double best = *std::max_element(iou.begin(), iou.end());
   if (stride > 1) {
     // Ties by lowest index.
@@ -166,7 +174,7 @@ double copyDistance(const Occupancy& example, const Occupancy& result,
         for (int y = low.y; y <= high.y; ++y)
           for (int x = low.x; x <= high.x; ++x) near.push_back({x, y, z});
     }
-    const std::vector<double> refined = ious(example, result, near);
+    const std::vector<double> refined = ious(example, result, near, progress.part(lattice, 1));
     best = std::max(best, *std::max_element(refined.begin(), refined.end()));
   }
   return 1 - best;
@@ -185,24 +193,26 @@ void requireOriginsFit(const Origins& origins, const DistanceField& example,
                        "; give the example that the result was made from");
 }
 
-SurfaceUse surfaceUse(const Occupancy& example, const Origins& origins, int exampleIndex) {
-  const Uses uses = countUses(origins, example, exampleIndex);
+SurfaceUse surfaceUse(const Occupancy& example, const Origins& origins, int exampleIndex,
+                      const Progress& progress) {
+  const Uses uses = countUses(origins, example, exampleIndex, progress);
   if (uses.total == 0 && uses.surface > 1) return {0, 0};
   return {uses.most > 0 ? uses.entropy / uses.most : 1, std::exp(uses.entropy - uses.most)};
 }
 
 Novelty measureNovelty(const DistanceField& example, const DistanceField& result,
-                       const Origins* origins, int exampleIndex) {
+                       const Origins* origins, int exampleIndex, const Progress& progress) {
+  progress.report("measuring novelty", 0);
   requireSameVoxels(example, result);
   const Occupancy e(example), r(result);
   Novelty novelty;
   if (e.size() == r.size()) novelty.distance = 1 - intersectionOverUnion(e, r);
-  novelty.copyDistance = copyDistance(e, r);
+  novelty.copyDistance = copyDistance(e, r, {}, progress.part(0, 0.7));
   if (!origins) return novelty;
 
   requireOriginsFit(*origins, example, result, exampleIndex);
-  novelty.verbatimRun = verbatimRun(*origins, example);
-  const SurfaceUse used = surfaceUse(e, *origins, exampleIndex);
+  novelty.verbatimRun = verbatimRun(*origins, example, progress.part(0.7, 0.9));
+  const SurfaceUse used = surfaceUse(e, *origins, exampleIndex, progress.part(0.9, 1));
   novelty.use = used.use;
   novelty.usedShare = used.usedShare;
   return novelty;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/origin.h"
+#include "core/progress.h"
 #include "measure/occupancy.h"
 #include "sdf/distance_field.h"
 
@@ -22,7 +23,7 @@ struct CopyDistanceOptions {
   /// How far beyond the aligned faces the example may be moved; voxels, 0..64.
   int reach = 8;
   /// The most placements that are tried one by one; where there are more, a lattice of them is,
-  /// and then the neighbourhoods of the best.
+  /// and then the neighborhoods of the best.
   std::int64_t placements = 100000;
 };
 
@@ -30,8 +31,9 @@ struct CopyDistanceOptions {
 /// wherever it was put, where the aligned distance is fooled by a shift of some voxels. Along each
 /// axis the smaller box is moved through the larger one and up to `reach` voxels (at most an eighth
 /// of the smaller side) beyond; IoU is over the overlap. 1 where they never have solid in common.
+/// Throws `Cancelled`.
 double copyDistance(const Occupancy& example, const Occupancy& result,
-                    const CopyDistanceOptions& options = {});
+                    const CopyDistanceOptions& options = {}, const Progress& progress = {});
 
 /// How far the result goes beyond its example.
 struct Novelty {
@@ -40,11 +42,11 @@ struct Novelty {
   /// The same at the placement where it is least (`copyDistance`).
   double copyDistance = 0;
 
-  // What origins tell; absent without them.
+  // Measured on origins; absent without them.
 
   /// The volume-weighted mean size of connected regions with one source offset, over the example's
   /// volume: 1 for a copy of the example, and for a tiling with it; (block / size)³ for blocks.
-  /// Neighbours (sharing a face) are of one region where their origins differ as they do
+  /// Neighbors (sharing a face) are of one region where their origins differ as they do
   /// themselves, turns taken into account. Empty regions count like solid ones.
   std::optional<double> verbatimRun;
   /// The entropy of how often each surface cell of the example (solid, with an empty cell at one of
@@ -59,18 +61,20 @@ struct Novelty {
 };
 
 /// How evenly the example's surface was used: `Novelty::use` and `usedShare`. O(cells), quick.
-/// Origins are within `example` (`requireOriginsFit`).
+/// Origins are within `example` (`requireOriginsFit`). Throws `Cancelled`.
 struct SurfaceUse {
   double use = 0, usedShare = 0;
 };
-SurfaceUse surfaceUse(const Occupancy& example, const Origins& origins, int exampleIndex = 0);
+SurfaceUse surfaceUse(const Occupancy& example, const Origins& origins, int exampleIndex = 0,
+                      const Progress& progress = {});
 
 /// Novelty from the solid and, where there are any, the origins (same size as the result; `nullptr`
 /// if none). Origins in examples other than number `exampleIndex` count for the regions, not for
 /// the use. O(cells). Throws `InputError` for voxel sizes or numbers of origins that do not fit,
-/// and for origins outside the example.
+/// and for origins outside the example, and `Cancelled`.
 Novelty measureNovelty(const DistanceField& example, const DistanceField& result,
-                       const Origins* origins = nullptr, int exampleIndex = 0);
+                       const Origins* origins = nullptr, int exampleIndex = 0,
+                       const Progress& progress = {});
 
 /// Throws `InputError` unless there is one origin for each sample of the result and each that is in
 /// example number `exampleIndex` is inside `example`.

@@ -54,7 +54,7 @@ Counts overlap(const Occupancy& a, const Occupancy& b, const Vec3i& shift) {
   });
 }
 
-/// Pairs of neighbours along `d`, one solid and one empty, whose first cell has z in z0..z1.
+/// Pairs of neighbors along `d`, one solid and one empty, whose first cell has z in z0..z1.
 EXEMPLAR_MULTIVERSION
 std::int64_t countChanges(const Occupancy& o, const Vec3i& d, int z0, int z1) {
   const Vec3i n = o.size();
@@ -69,7 +69,7 @@ std::int64_t countChanges(const Occupancy& o, const Vec3i& d, int z0, int z1) {
   return changes;
 }
 
-/// A direction of the 3³ neighbourhood and the share of all directions that are nearest to it.
+/// A direction of the 3³ neighborhood and the share of all directions that are nearest to it.
 struct Direction {
   Vec3i step;
   double weight;

@@ -58,7 +58,7 @@ double solidFraction(const Occupancy& occupancy);
 /// Surface area for each unit of volume, with the voxel as the unit of length: world area density
 /// is this divided by the voxel size.
 ///
-/// Crofton's formula over the 13 directions of the 3³ neighbourhood, weighted by their Voronoi
+/// Crofton's formula over the 13 directions of the 3³ neighborhood, weighted by their Voronoi
 /// cells on the sphere (Lehmann, Legland: "Efficient N-dimensional surface estimation using Crofton
 /// formula and run-length encoding", The Insight Journal, 2012): the changes between solid and
 /// empty along each direction, for each unit of length. Within 2 % on a sphere; 7 % low on a plane

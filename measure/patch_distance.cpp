@@ -23,13 +23,12 @@ constexpr int kSide = 7;
 constexpr int kReach = kSide / 2;
 constexpr int kSamples = kSide * kSide * kSide;
 constexpr double kTruncation = 3;  // voxels
-constexpr std::uint32_t kExampleStream = 0x66706465, kResultStream = 0x66706472;
 
 /// One row a patch.
 using Patches = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Where the patches of a field are centred, in the order of the samples.
-std::vector<Vec3i> centres(const DistanceField& field) {
+/// Where the patches of a field are centered, in the order of the samples.
+std::vector<Vec3i> centers(const DistanceField& field) {
   const Vec3i n = field.size();
   const auto half = static_cast<float>(field.voxelSize / 2);
   std::vector<std::vector<Vec3i>> layers(std::max(0, n.z - 2 * kReach));
@@ -47,13 +46,13 @@ std::vector<Vec3i> centres(const DistanceField& field) {
 }
 
 /// `count` patches drawn with repetition: `count` x 343 samples in voxels.
-Patches draw(const DistanceField& field, const std::vector<Vec3i>& centres, double truncation,
-             int count, std::uint64_t seed, std::uint32_t stream, int round) {
-  const Random random(seed, stream);
+Patches draw(const DistanceField& field, const std::vector<Vec3i>& centers, double truncation,
+             int count, std::uint64_t seed, std::uint32_t randomStream, int round) {
+  const Random random(seed, randomStream);
   Patches patches(count, kSamples);
   parallelFor(0, count, 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const Vec3i c = centres[random.below(static_cast<std::uint32_t>(centres.size()), p, round)];
+      const Vec3i c = centers[random.below(static_cast<std::uint32_t>(centers.size()), p, round)];
       double* out = patches.row(static_cast<Eigen::Index>(p)).data();
       for (int k = -kReach; k <= kReach; ++k)
         for (int j = -kReach; j <= kReach; ++j) {
@@ -74,9 +73,9 @@ struct Gaussian {
 Gaussian fit(const Patches& points) {
   Gaussian g;
   g.mean = points.colwise().mean();
-  const Eigen::MatrixXd centred = points.rowwise() - g.mean.transpose();
+  const Eigen::MatrixXd centered = points.rowwise() - g.mean.transpose();
   Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(points.cols(), points.cols());
-  lower.selfadjointView<Eigen::Lower>().rankUpdate(centred.transpose(),
+  lower.selfadjointView<Eigen::Lower>().rankUpdate(centered.transpose(),
                                                    1.0 / static_cast<double>(points.rows() - 1));
   g.covariance = lower.selfadjointView<Eigen::Lower>();
   return g;
@@ -110,20 +109,22 @@ double truncationVoxels(const DistanceField& field) {
 
 std::optional<PatchDistance> patchDistance(const DistanceField& example,
                                            const DistanceField& result,
-                                           const PatchDistanceOptions& options) {
+                                           const PatchDistanceOptions& options,
+                                           const Progress& progress) {
   assert(options.patches >= 64 && options.rounds >= 1);
   assert(options.components >= 1 && options.components <= kSamples);
   requireSameVoxels(example, result);
-  const std::vector<Vec3i> exampleCentres = centres(example), resultCentres = centres(result);
-  if (exampleCentres.empty() || resultCentres.empty()) return std::nullopt;
+  const std::vector<Vec3i> exampleCenters = centers(example), resultCenters = centers(result);
+  if (exampleCenters.empty() || resultCenters.empty()) return std::nullopt;
   const double truncation =
       std::min({kTruncation, truncationVoxels(example), truncationVoxels(result)});
 
   PatchDistance sum;
   Eigen::MatrixXd basis;  // 343 x components
   for (int round = 0; round < options.rounds; ++round) {
-    const Patches patches = draw(example, exampleCentres, truncation, options.patches, options.seed,
-                                 kExampleStream, round);
+    progress.report("comparing patches", static_cast<double>(round) / options.rounds);
+    const Patches patches = draw(example, exampleCenters, truncation, options.patches, options.seed,
+                                 stream::kExampleWindows, round);
     if (round == 0) {
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(fit(patches).covariance);
       basis = solver.eigenvectors().rightCols(options.components);  // ascending eigenvalues
@@ -132,15 +133,15 @@ std::optional<PatchDistance> patchDistance(const DistanceField& example,
     const Gaussian reference = fit(patches * basis);
     const auto against = [&](const DistanceField& field, const std::vector<Vec3i>& from) {
       return frechet(reference, fit(draw(field, from, truncation, options.patches, options.seed,
-                                         kResultStream, round) *
+                                         stream::kResultWindows, round) *
                                     basis));
     };
-    sum.distance += against(result, resultCentres);
-    sum.floor += against(example, exampleCentres);
+    sum.distance += against(result, resultCenters);
+    sum.floor += against(example, exampleCenters);
   }
   return PatchDistance{sum.distance / options.rounds, sum.floor / options.rounds,
-                       static_cast<std::int64_t>(exampleCentres.size()),
-                       static_cast<std::int64_t>(resultCentres.size())};
+                       static_cast<std::int64_t>(exampleCenters.size()),
+                       static_cast<std::int64_t>(resultCenters.size())};
 }
 
 }  // namespace exemplar

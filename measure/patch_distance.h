@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/progress.h"
 #include "sdf/distance_field.h"
 
 namespace exemplar {
@@ -30,7 +31,7 @@ struct PatchDistance {
 /// *FPD*: how far the result's patches of surface are from the example's, as distributions.
 ///
 /// A patch is 7³ samples of the distance in voxels, truncated at ±3 (or less, where a field's own
-/// truncation is less), centred on a sample within half a voxel of the surface and wholly inside
+/// truncation is less), centered on a sample within half a voxel of the surface and wholly inside
 /// the field. 4,000 are drawn from each field, with repetition, so that a field of few patches has
 /// a floor too. They are projected on the 32 principal components of the example's patches, and the
 /// distance is that of the Gaussians with their means and covariances (Dowson, Landau: "The Fréchet
@@ -44,9 +45,10 @@ struct PatchDistance {
 ///
 /// Nothing where a field has no patch at all: one that is empty, solid, or thinner than 7 samples.
 /// About 0.5 s; the same bytes at any number of threads. Throws `InputError` where the fields'
-/// voxel sizes differ.
+/// voxel sizes differ, and `Cancelled`.
 std::optional<PatchDistance> patchDistance(const DistanceField& example,
                                            const DistanceField& result,
-                                           const PatchDistanceOptions& options = {});
+                                           const PatchDistanceOptions& options = {},
+                                           const Progress& progress = {});
 
 }  // namespace exemplar

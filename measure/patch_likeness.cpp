@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/simd.h"
@@ -19,15 +20,14 @@
 namespace exemplar {
 namespace {
 
-constexpr int kHalf = kWindowSize / 2;
-constexpr int kStride = kWindowSize / 2;
-constexpr int kGuard = kWindowSize / 2 + 1;
-constexpr int kWords = 2 * kWindowSize;  // each layer of 121 cells takes two words
-constexpr int kPaddedWords = 24;         // and empty ones, for eight lanes of three
-constexpr int kParts = 27;               // parts of 4, 4 and 3 cells along each axis
-constexpr int kBlock = 64;               // windows that are bounded together
-constexpr std::array<int, 4> kCuts{0, 4, 8, kWindowSize};
-constexpr std::uint32_t kDrawStream = 0x77696e64;
+constexpr int kHalf = kLikenessWindow / 2;
+constexpr int kStride = kLikenessStride;
+constexpr int kGuard = kLikenessWindow / 2 + 1;
+constexpr int kWords = 2 * kLikenessWindow;  // each layer of 121 cells takes two words
+constexpr int kPaddedWords = 24;             // and empty ones, for eight lanes of three
+constexpr int kParts = 27;                   // parts of 4, 4 and 3 cells along each axis
+constexpr int kBlock = 64;                   // windows that are bounded together
+constexpr std::array<int, 4> kCuts{0, 4, 8, kLikenessWindow};
 
 static_assert(kGuard <= Occupancy::kMargin);
 
@@ -36,11 +36,11 @@ struct LayerBits {
   std::uint64_t low = 0, high = 0;
 
   constexpr void add(int row, std::uint64_t cells) {
-    const int at = row * kWindowSize;
+    const int at = row * kLikenessWindow;
     if (at < 64) low |= cells << at;
     if (at >= 64) {
       high |= cells << (at - 64);
-    } else if (at + kWindowSize > 64) {
+    } else if (at + kLikenessWindow > 64) {
       high |= cells >> (64 - at);
     }
   }
@@ -69,9 +69,9 @@ class Column {
   Column(const Occupancy& volume, int low, int high)
       : volume_(volume),
         low_(low),
-        bits_(2 * static_cast<std::size_t>(high - low + kWindowSize) + kPaddedWords - kWords),
-        parts_(static_cast<std::size_t>(high - low + kWindowSize) + 1),
-        core_(static_cast<std::size_t>(high - low + kWindowSize)) {}
+        bits_(2 * static_cast<std::size_t>(high - low + kLikenessWindow) + kPaddedWords - kWords),
+        parts_(static_cast<std::size_t>(high - low + kLikenessWindow) + 1),
+        core_(static_cast<std::size_t>(high - low + kLikenessWindow)) {}
 
   /// Cuts out the layers of the windows at (x, y) from `low` to `high` (excluded) of construction.
   EXEMPLAR_MULTIVERSION void cut(int x, int y);
@@ -111,8 +111,8 @@ void Column::cut(int x, int y) {
   for (std::size_t layer = 0; layer < core_.size(); ++layer) {
     const int z = low_ + static_cast<int>(layer);
     LayerBits bits;
-    for (int row = 0; row < kWindowSize; ++row)
-      bits.add(row, volume_.bits(x, y + row, z) & ((1u << kWindowSize) - 1));
+    for (int row = 0; row < kLikenessWindow; ++row)
+      bits.add(row, volume_.bits(x, y + row, z) & ((1u << kLikenessWindow) - 1));
     bits_[2 * layer] = bits.low;
     bits_[2 * layer + 1] = bits.high;
     core_[layer] = static_cast<std::uint8_t>(std::popcount(bits.low & kCore.low) +
@@ -140,19 +140,21 @@ struct Starts {
 /// A window that is `out` cells beyond the box at most; interior ones have `out` = 0.
 Starts starts(const Vec3i& size, WindowBorder border, int out, int stride) {
   if (border == WindowBorder::Interior) out = 0;
-  const int high = 1 - kWindowSize + out;
+  const int high = 1 - kLikenessWindow + out;
   return {{-out, -out, -out}, size + Vec3i{high, high, high}, stride};
 }
 
 constexpr std::size_t kColumnsAtOnce = 16;
 
 /// The starts of `volume`'s surface windows among `s`, in the order of their columns.
-std::vector<Vec3i> surfaceWindows(const Occupancy& volume, const Starts& s) {
+std::vector<Vec3i> surfaceWindows(const Occupancy& volume, const Starts& s,
+                                  const Progress& progress) {
   if (s.along(2) == 0) return {};
   std::vector<std::vector<Vec3i>> found((s.columns() + kColumnsAtOnce - 1) / kColumnsAtOnce);
   parallelFor(0, found.size(), 1, [&](std::size_t begin, std::size_t end) {
     Column column(volume, s.low.z, s.high.z);
-    for (std::size_t f = begin; f < end; ++f)
+    for (std::size_t f = begin; f < end; ++f) {
+      progress.check();
       for (std::size_t c = f * kColumnsAtOnce; c < std::min(s.columns(), (f + 1) * kColumnsAtOnce);
            ++c) {
         const Vec3i at = s.column(c);
@@ -160,6 +162,7 @@ std::vector<Vec3i> surfaceWindows(const Occupancy& volume, const Starts& s) {
         for (int z = s.low.z; z < s.high.z; z += s.stride)
           if (column.surface(z)) found[f].push_back({at.x, at.y, z});
       }
+    }
   });
   std::vector<Vec3i> all;
   for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
@@ -168,7 +171,7 @@ std::vector<Vec3i> surfaceWindows(const Occupancy& volume, const Starts& s) {
 
 /// `count` of the windows, in random order.
 std::vector<Vec3i> draw(const std::vector<Vec3i>& windows, std::size_t count, std::uint64_t seed) {
-  const Random random(seed, kDrawStream);
+  const Random random(seed, stream::kLikenessWindows);
   std::vector<std::pair<std::uint64_t, std::size_t>> keys(windows.size());
   for (std::size_t w = 0; w < windows.size(); ++w) keys[w] = {random.bits(w), w};
   count = std::min(count, windows.size());
@@ -310,7 +313,9 @@ struct Matches {
   std::int64_t references = 0;  // the windows of the reference
 };
 
-Matches bestMatches(const std::vector<Block>& blocks, const Occupancy& reference, const Starts& s) {
+Matches bestMatches(const std::vector<Block>& blocks, const Occupancy& reference, const Starts& s,
+                    const Progress& progress) {
+  LoopProgress columns(progress, "measuring likeness", s.columns());
   std::vector<std::atomic<float>> shared(blocks.size() * kBlock);
   for (std::size_t w = 0; w < shared.size(); ++w) shared[w] = blocks[w / kBlock].start;
   std::atomic<std::int64_t> references = 0;
@@ -329,6 +334,7 @@ Matches bestMatches(const std::vector<Block>& blocks, const Occupancy& reference
         std::int64_t seen = 0;
         std::array<std::uint16_t, kParts> parts;
         for (std::size_t c = begin; c < end; ++c) {
+          columns.check();
           const Vec3i at = s.column(c);
           column.cut(at.x, at.y);
           for (int z = s.low.z; z < s.high.z; z += s.stride) {
@@ -345,6 +351,7 @@ Matches bestMatches(const std::vector<Block>& blocks, const Occupancy& reference
           }
         }
         references += seen;
+        columns.advance(end - begin);
         for (std::size_t b = 0; b < blocks.size(); ++b)
           for (int w = 0; w < blocks[b].count; ++w) raise(shared[b * kBlock + w], best[b].iou[w]);
       });
@@ -357,19 +364,21 @@ Matches bestMatches(const std::vector<Block>& blocks, const Occupancy& reference
 }  // namespace
 
 bool hasInteriorWindows(const Vec3i& size) {
-  return size.x >= kWindowSize && size.y >= kWindowSize && size.z >= kWindowSize;
+  return size.x >= kLikenessWindow && size.y >= kLikenessWindow && size.z >= kLikenessWindow;
 }
 
 PatchLikeness patchLikeness(const Occupancy& asked, const Occupancy& reference,
-                            const PatchLikenessOptions& options) {
+                            const PatchLikenessOptions& options, const Progress& progress) {
   assert(options.referenceStride >= 1 && options.windows >= 1);
-  // The dense reference reaches one cell further out; the published one stands on the same lattice.
+  // The dense reference reaches one cell further out; the published one is on the same lattice.
   const int out = options.referenceStride == 1 ? kGuard : kHalf;
   const Starts referenceStarts =
       starts(reference.size(), options.border, out, options.referenceStride);
-  auto found = surfaceWindows(asked, starts(asked.size(), options.border, kHalf, kStride));
+  auto found =
+      surfaceWindows(asked, starts(asked.size(), options.border, kHalf, kStride), progress);
   // A few cells of surface can slip between the lattice's cores.
-  if (found.empty()) found = surfaceWindows(asked, starts(asked.size(), options.border, kHalf, 1));
+  if (found.empty())
+    found = surfaceWindows(asked, starts(asked.size(), options.border, kHalf, 1), progress);
   const auto windows = draw(found, static_cast<std::size_t>(options.windows), options.seed);
   const auto averaged = std::min(windows.size(), static_cast<std::size_t>(options.averaged));
   const auto threshold = static_cast<float>(options.threshold);
@@ -379,7 +388,7 @@ PatchLikeness patchLikeness(const Occupancy& asked, const Occupancy& reference,
   std::vector<Block> blocks;
   addBlocks(blocks, asked, std::span(windows).first(averaged), 0);
   addBlocks(blocks, asked, std::span(windows).subspan(averaged), threshold);
-  const Matches matches = bestMatches(blocks, reference, referenceStarts);
+  const Matches matches = bestMatches(blocks, reference, referenceStarts, progress);
 
   PatchLikeness likeness;
   likeness.windows = static_cast<std::int64_t>(windows.size());

@@ -6,16 +6,14 @@
 #include <cstdint>
 
 #include "core/figure_constants.h"
+#include "core/progress.h"
 #include "measure/occupancy.h"
 
 namespace exemplar {
 
-/// The side of a surface window, in cells.
-inline constexpr int kWindowSize = kLikenessWindow;
-
 /// Which windows of a volume count.
 enum class WindowBorder {
-  /// Those whose centre lies in the box; what they show of its outside is empty. As published.
+  /// Those whose center lies in the box; what they show of its outside is empty. As published.
   Padded,
   /// Those that lie wholly inside: a padded window leaning over a face of the box earns credit for
   /// the cut, which any two boxes of the same material share.
@@ -27,12 +25,12 @@ struct PatchLikenessOptions {
   /// The step between the reference's windows: 1 (dense) or 5 (as published); cells, >= 1.
   int referenceStride = 1;
   /// The IoU that the best match of a window has to exceed; 0..1.
-  double threshold = 0.95;
+  double threshold = kLikenessThreshold;
   /// How many of the asked volume's windows are drawn, at random and without repetition; >= 1.
   int windows = 1000;
   /// How many of them (the first drawn) are followed to their very best match for `meanIou`, which
-  /// tells results apart that a threshold does not; of the others it is enough to know whether the
-  /// best exceeds it. >= 0.
+  /// distinguishes results that a threshold does not; of the others it is enough to know whether
+  /// the best exceeds it. >= 0.
   int averaged = 250;
   std::uint64_t seed = 0;
 };
@@ -53,8 +51,8 @@ struct PatchLikeness {
 /// With the result as `asked` and the example as `reference` this is LP, how much of the result is
 /// as in the example: *LP-published* (Wu, Zheng: "Learning to generate 3D shapes from a single
 /// example", ACM Transactions on Graphics 41(6), 2022, doi:10.1145/3550454.3555480, and its
-/// program's evaluation) at reference stride 5, *LP-dense* at stride 1. Turned round it is
-/// *coverage*, how much of the example is in the result; the two together are a bidirectional
+/// program's evaluation) at reference stride 5, *LP-dense* at stride 1. With the roles swapped it
+/// is *coverage*, how much of the example is in the result; the two together are a bidirectional
 /// similarity (Rosenberger, Cohen-Or, Lischinski: "Layered shape synthesis", ACM Transactions on
 /// Graphics 28(5), 2009, section 3.1).
 ///
@@ -67,9 +65,10 @@ struct PatchLikeness {
 ///
 /// Exact. A pair is passed over when its bound, from counts of solid cells in the window and in 27
 /// parts of it, cannot beat the window's best so far. About 0.2 s a million reference windows on
-/// two cores; the same bytes at any number of threads.
+/// two cores; the same bytes at any number of threads. Throws `Cancelled`.
 PatchLikeness patchLikeness(const Occupancy& asked, const Occupancy& reference,
-                            const PatchLikenessOptions& options = {});
+                            const PatchLikenessOptions& options = {},
+                            const Progress& progress = {});
 
 /// Whether a volume of this size has room for windows wholly inside it.
 bool hasInteriorWindows(const Vec3i& size);

@@ -34,7 +34,7 @@ void appendRuns(const Occupancy& o, int y, int z, DisjointSets& sets, std::vecto
   }
 }
 
-/// Joins runs of neighbouring rows that share a face.
+/// Joins runs of neighboring rows that share a face.
 void joinRows(const std::vector<Run>& runs, std::size_t a, std::size_t aEnd, std::size_t b,
               std::size_t bEnd, DisjointSets& sets) {
   while (a < aEnd && b < bEnd) {
@@ -63,12 +63,13 @@ double wholeShare(const std::vector<Component>& components) {
 
 }  // namespace
 
-std::vector<Component> connectedComponents(const Occupancy& occupancy) {
+std::vector<Component> connectedComponents(const Occupancy& occupancy, const Progress& progress) {
   const Vec3i n = occupancy.size();
   DisjointSets sets(0);
   std::vector<Run> runs;
   std::vector<std::size_t> rowStart;  // rows in order of y, then z
-  for (int z = 0; z < n.z; ++z)
+  for (int z = 0; z < n.z; ++z) {
+    progress.report("finding pieces", static_cast<double>(z) / n.z);
     for (int y = 0; y < n.y; ++y) {
       const std::size_t row = rowStart.size();
       rowStart.push_back(runs.size());
@@ -78,6 +79,7 @@ std::vector<Component> connectedComponents(const Occupancy& occupancy) {
         joinRows(runs, rowStart[row - n.y], rowStart[row - n.y + 1], rowStart[row], runs.size(),
                  sets);
     }
+  }
   rowStart.push_back(runs.size());
 
   std::vector<Component> byRoot(sets.count());
@@ -94,11 +96,13 @@ std::vector<Component> connectedComponents(const Occupancy& occupancy) {
   return byRoot;
 }
 
-Pieces comparePieces(const DistanceField& example, const DistanceField& result) {
+Pieces comparePieces(const DistanceField& example, const DistanceField& result,
+                     const Progress& progress) {
   Pieces pieces;
-  std::vector<Component> components = connectedComponents(Occupancy(example));
+  std::vector<Component> components =
+      connectedComponents(Occupancy(example), progress.part(0, 0.3));
   if (wholeShare(components) < kMostlyWhole) {
-    auto deeper = connectedComponents(Occupancy(example, kContactDepth));
+    auto deeper = connectedComponents(Occupancy(example, kContactDepth), progress.part(0.3, 0.6));
     if (wholeShare(deeper) >= kMostlyWhole) {
       components = std::move(deeper);
       pieces.depth = kContactDepth;
@@ -114,7 +118,7 @@ Pieces comparePieces(const DistanceField& example, const DistanceField& result) 
 
   const Occupancy solid(result, pieces.depth);
   std::int64_t broken = 0;
-  for (const Component& c : connectedComponents(solid)) {
+  for (const Component& c : connectedComponents(solid, progress.part(0.6, 1))) {
     if (c.touchesFace) continue;
     ++pieces.result;
     if (static_cast<double>(c.cells) < kBrokenShare * static_cast<double>(pieces.smallest))

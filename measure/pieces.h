@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/progress.h"
 #include "measure/occupancy.h"
 #include "sdf/distance_field.h"
 
@@ -19,13 +20,15 @@ struct Component {
   bool operator==(const Component&) const = default;
 };
 
-/// The components of a volume in the order of their first cells. O(cells).
-std::vector<Component> connectedComponents(const Occupancy& occupancy);
+/// The components of a volume in the order of their first cells. O(cells). Throws
+/// `Cancelled`.
+std::vector<Component> connectedComponents(const Occupancy& occupancy,
+                                           const Progress& progress = {});
 
 /// What the solid of an example falls into, and what that of a result does. A *piece* is a
 /// component that touches no face of the box, and is therefore whole.
 struct Pieces {
-  /// How far below the surface solid begins, in voxels: 0, or 1/2 (`comparePieces`).
+  /// How far below the surface the solid begins, in voxels: 0, or 1/2 (`comparePieces`).
   double depth = 0;
   std::int64_t example = 0, result = 0;  ///< how many pieces there are
   /// Pieces for each million cells of the box. Large pieces are whole more rarely in a small box,
@@ -39,14 +42,15 @@ struct Pieces {
 };
 
 /// Bodies that rest on each other (balls in a heap, rings of a mail) are one component to cells,
-/// and nothing could be told about them. So where whole pieces are less than a quarter of the
+/// and nothing could be said about them. So where whole pieces are less than a quarter of the
 /// example's solid, and they are more than that of what lies half a voxel below its surface, the
 /// latter is what falls into pieces, in the example and in the result: contacts that fine do not
 /// join.
 ///
 /// Where the example has no whole piece at all, everything in it is part of something that leaves
-/// the box (ground, fibres, a lattice); a piece of the result then counts as broken unless it is at
-/// least half as large as the largest of these.
-Pieces comparePieces(const DistanceField& example, const DistanceField& result);
+/// the box (ground, fibers, a lattice); a piece of the result then counts as broken unless it is at
+/// least half as large as the largest of these. O(cells). Throws `Cancelled`.
+Pieces comparePieces(const DistanceField& example, const DistanceField& result,
+                     const Progress& progress = {});
 
 }  // namespace exemplar

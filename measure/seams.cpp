@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/cells.h"
+#include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "measure/novelty.h"
 #include "measure/same_voxels.h"
@@ -71,19 +73,21 @@ Vec3i unit(int axis) {
 
 /// Calls `body(ijk, partial)` for all samples, layer by layer; the partial sums in order.
 template <class Sum, class Body>
-Sum sumOverSamples(const Vec3i& n, const Body& body) {
+Sum sumOverSamples(const Vec3i& n, const Progress& progress, const Body& body) {
+  LoopProgress layers(progress, "measuring seams", static_cast<std::size_t>(n.z));
   return parallelSum<Sum>(0, n.z, kLayers, [&](std::size_t begin, std::size_t end) {
     Sum sum{};
-    for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
-      for (int j = 0; j < n.y; ++j)
-        for (int i = 0; i < n.x; ++i) body(Vec3i{i, j, k}, sum);
+    for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k) {
+      forEachCell(CellBox{{0, 0, k}, {n.x, n.y, k + 1}}, [&](const Vec3i& p) { body(p, sum); });
+      layers.advance();
+    }
     return sum;
   });
 }
 
-std::optional<double> eikonalResidual(const InVoxels& phi, double band) {
+std::optional<double> eikonalResidual(const InVoxels& phi, double band, const Progress& progress) {
   const Vec3i n = phi.size();
-  const Mean mean = sumOverSamples<Mean>(n, [&](const Vec3i& p, Mean& sum) {
+  const Mean mean = sumOverSamples<Mean>(n, progress, [&](const Vec3i& p, Mean& sum) {
     if (p.x < 1 || p.y < 1 || p.z < 1 || p.x > n.x - 2 || p.y > n.y - 2 || p.z > n.z - 2) return;
     if (!(std::abs(phi(p)) < band)) return;
     double square = 0;
@@ -98,9 +102,9 @@ std::optional<double> eikonalResidual(const InVoxels& phi, double band) {
 }
 
 /// The example's own second differences.
-Means secondDifferences(const InVoxels& phi) {
+Means secondDifferences(const InVoxels& phi, const Progress& progress) {
   const Vec3i n = phi.size();
-  return sumOverSamples<Means>(n, [&](const Vec3i& p, Means& sum) {
+  return sumOverSamples<Means>(n, progress, [&](const Vec3i& p, Means& sum) {
     for (int axis = 0; axis < 3; ++axis) {
       if (p[axis] < 1 || p[axis] > n[axis] - 2) continue;
       const double difference = std::abs(phi(p - unit(axis)) - 2 * phi(p) + phi(p + unit(axis)));
@@ -131,8 +135,8 @@ std::optional<double> jumpAt(const InVoxels& example, const InVoxels& result,
 }
 
 Means meanJumps(const InVoxels& example, const InVoxels& result, const Origins& origins,
-                int exampleIndex) {
-  return sumOverSamples<Means>(result.size(), [&](const Vec3i& a, Means& sum) {
+                int exampleIndex, const Progress& progress) {
+  return sumOverSamples<Means>(result.size(), progress, [&](const Vec3i& a, Means& sum) {
     for (int axis = 0; axis < 3; ++axis) {
       const Vec3i b = a + unit(axis);
       if (!result.contains(b)) continue;
@@ -159,20 +163,20 @@ double truncationVoxels(const DistanceField& field) {
 }  // namespace
 
 Seams measureSeams(const DistanceField& example, const DistanceField& result,
-                   const Origins* origins, int exampleIndex) {
+                   const Origins* origins, int exampleIndex, const Progress& progress) {
   requireSameVoxels(example, result);
   const double truncation = std::min(truncationVoxels(example), truncationVoxels(result));
   const InVoxels e(example, truncation), r(result, truncation);
   const double band = std::min(kBand, truncation - 1);
 
   Seams seams;
-  seams.eikonalResidual = eikonalResidual(r, band);
-  seams.exampleEikonalResidual = eikonalResidual(e, band);
+  seams.eikonalResidual = eikonalResidual(r, band, progress.part(0, 0.2));
+  seams.exampleEikonalResidual = eikonalResidual(e, band, progress.part(0.2, 0.3));
   if (!origins) return seams;
 
   requireOriginsFit(*origins, example, result, exampleIndex);
-  const Means own = secondDifferences(e);
-  const Means jumps = meanJumps(e, r, *origins, exampleIndex);
+  const Means own = secondDifferences(e, progress.part(0.3, 0.4));
+  const Means jumps = meanJumps(e, r, *origins, exampleIndex, progress.part(0.4, 1));
   seams.seamShare = jumps.faces == 0
                         ? 0
                         : static_cast<double>(jumps.all.count) / static_cast<double>(jumps.faces);
@@ -184,29 +188,29 @@ Seams measureSeams(const DistanceField& example, const DistanceField& result,
 }
 
 Array3D<float> seamJumps(const DistanceField& example, const DistanceField& result,
-                         const Origins& origins, int exampleIndex) {
+                         const Origins& origins, int exampleIndex, const Progress& progress) {
   requireSameVoxels(example, result);
   requireOriginsFit(origins, example, result, exampleIndex);
   const double truncation = std::min(truncationVoxels(example), truncationVoxels(result));
   const InVoxels e(example, truncation), r(result, truncation);
   Array3D<float> jumps(result.size());
   const Vec3i n = result.size();
+  LoopProgress layers(progress, "measuring seams", static_cast<std::size_t>(n.z));
   parallelFor(0, n.z, kLayers, [&](std::size_t begin, std::size_t end) {
-    for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
-      for (int j = 0; j < n.y; ++j)
-        for (int i = 0; i < n.x; ++i) {
-          const Vec3i a{i, j, k};
-          double most = 0;
-          for (int axis = 0; axis < 3; ++axis) {
-            const Vec3i step = unit(axis);
-            if (r.contains(a + step))
-              most = std::max(most, jumpAt(e, r, origins, exampleIndex, a, step).value_or(0));
-            if (r.contains(a - step))
-              most =
-                  std::max(most, jumpAt(e, r, origins, exampleIndex, a - step, step).value_or(0));
-          }
-          jumps[a] = static_cast<float>(most);
+    for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k) {
+      forEachCell(CellBox{{0, 0, k}, {n.x, n.y, k + 1}}, [&](const Vec3i& a) {
+        double most = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          const Vec3i step = unit(axis);
+          if (r.contains(a + step))
+            most = std::max(most, jumpAt(e, r, origins, exampleIndex, a, step).value_or(0));
+          if (r.contains(a - step))
+            most = std::max(most, jumpAt(e, r, origins, exampleIndex, a - step, step).value_or(0));
         }
+        jumps[a] = static_cast<float>(most);
+      });
+      layers.advance();
+    }
   });
   return jumps;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/origin.h"
+#include "core/progress.h"
 #include "sdf/distance_field.h"
 
 namespace exemplar {
@@ -19,7 +20,7 @@ struct Seams {
   /// Nothing where there is no such sample.
   std::optional<double> eikonalResidual, exampleEikonalResidual;
 
-  // What origins tell; absent without them.
+  // Measured on origins; absent without them.
 
   /// The share of cell faces where the source offset changes; 0..1.
   std::optional<double> seamShare;
@@ -37,14 +38,16 @@ struct Seams {
 /// Seams from the fields and, where there are any, the origins (same size as the result; `nullptr`
 /// if none). Faces whose sources are not in example number `exampleIndex` are passed over.
 /// O(samples), the same bytes at any number of threads. Throws `InputError` for voxel sizes or
-/// numbers of origins that do not fit, and for origins outside the example.
+/// numbers of origins that do not fit, and for origins outside the example, and `Cancelled`.
 Seams measureSeams(const DistanceField& example, const DistanceField& result,
-                   const Origins* origins = nullptr, int exampleIndex = 0);
+                   const Origins* origins = nullptr, int exampleIndex = 0,
+                   const Progress& progress = {});
 
 /// Where seams are and how much they jump, in voxels: for each sample of the result the largest of
 /// the jumps that `Seams::jump` is the mean of, over the sample's own faces; 0 where its source
 /// goes on to all sides. Arguments, errors and cost as there.
 Array3D<float> seamJumps(const DistanceField& example, const DistanceField& result,
-                         const Origins& origins, int exampleIndex = 0);
+                         const Origins& origins, int exampleIndex = 0,
+                         const Progress& progress = {});
 
 }  // namespace exemplar

@@ -5,10 +5,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
-/// The innermost loops of matching, in whole numbers. Written once over 16-bit lanes
-/// (`kernels_impl.h`), compiled for the machine's baseline, for AVX2 and for AVX-512, and chosen
-/// when the program starts. Integers make every version give the same results.
+/// The innermost loops of matching, in whole numbers. Written once over 16-bit lanes with Highway,
+/// compiled for each of the instruction sets that it knows (on x86-64 the baseline, SSSE3, AVX2 and
+/// AVX-512), and chosen when the program starts. Integers give the same results in every version.
 namespace exemplar::kernels {
 
 constexpr int kWide = 16;      ///< children of a node, entries of a leaf
@@ -119,7 +120,7 @@ struct Kernels {
 
 /// The fastest that this machine runs.
 const Kernels& kernels();
-/// Those that this machine runs, for tests.
-const Kernels* const* availableKernels(int& count);
+/// All that this machine runs, the fastest last.
+std::span<const Kernels* const> availableKernels();
 
 }  // namespace exemplar::kernels

@@ -5,13 +5,12 @@
 
 // Fields made by formulas, in voxels of size 1 unless said otherwise, for the tests of measure/.
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/origin.h"
 #include "core/random.h"
 #include "sdf/distance_field.h"
@@ -24,10 +23,8 @@ DistanceField makeField(const Vec3i& size, const Phi& phi) {
   DistanceField field;
   field.values = Array3D<float>(size);
   field.truncation = std::numeric_limits<float>::infinity();
-  for (int k = 0; k < size.z; ++k)
-    for (int j = 0; j < size.y; ++j)
-      for (int i = 0; i < size.x; ++i)
-        field.values(i, j, k) = static_cast<float>(phi(Vec3d{1.0 * i, 1.0 * j, 1.0 * k}));
+  forEachCell(size,
+              [&](const Vec3i& p) { field.values[p] = static_cast<float>(phi(cast<double>(p))); });
   return field;
 }
 
@@ -37,16 +34,16 @@ inline DistanceField emptyField(const Vec3i& size) {
 inline DistanceField solidField(const Vec3i& size) {
   return makeField(size, [](const Vec3d&) { return -10; });
 }
-inline DistanceField ball(const Vec3i& size, const Vec3d& centre, double radius) {
-  return makeField(size, [&](const Vec3d& p) { return length(p - centre) - radius; });
+inline DistanceField ball(const Vec3i& size, const Vec3d& center, double radius) {
+  return makeField(size, [&](const Vec3d& p) { return length(p - center) - radius; });
 }
 
 /// The solid box low..high.
 inline DistanceField box(const Vec3i& size, const Vec3d& low, const Vec3d& high) {
-  const Vec3d centre = (low + high) * 0.5, half = (high - low) * 0.5;
+  const Vec3d center = (low + high) * 0.5, half = (high - low) * 0.5;
   return makeField(size, [&](const Vec3d& p) {
-    const Vec3d q{std::abs(p.x - centre.x) - half.x, std::abs(p.y - centre.y) - half.y,
-                  std::abs(p.z - centre.z) - half.z};
+    const Vec3d q{std::abs(p.x - center.x) - half.x, std::abs(p.y - center.y) - half.y,
+                  std::abs(p.z - center.z) - half.z};
     return length(max(q, Vec3d{})) + std::min(0.0, std::max({q.x, q.y, q.z}));
   });
 }
@@ -66,30 +63,30 @@ inline DistanceField noise(const Vec3i& size, double solid, std::uint64_t seed) 
   return field;
 }
 
-/// Centres of balls that lie at least 2 radius + `gap` apart, by random sequential addition: the
+/// Centers of balls that lie at least 2 radius + `gap` apart, by random sequential addition: the
 /// same process at every seed. They reach past the box, so that its faces cut some; with a `margin`
 /// > 0 they stay wholly that far inside.
 inline std::vector<Vec3d> packing(const Vec3i& size, double radius, double gap, std::uint64_t seed,
                                   double margin = 0) {
   const Random random(seed, 78);
   const double reach = margin > 0 ? radius + margin : -radius;
-  std::vector<Vec3d> centres;
+  std::vector<Vec3d> centers;
   for (int attempt = 0; attempt < 20000; ++attempt) {
     Vec3d c;
     for (int axis = 0; axis < 3; ++axis)
       c[axis] = random.uniform(reach, size[axis] - 1 - reach, attempt, axis);
     const double least = 2 * radius + gap;
-    if (std::none_of(centres.begin(), centres.end(),
+    if (std::none_of(centers.begin(), centers.end(),
                      [&](const Vec3d& o) { return dot(c - o, c - o) < least * least; }))
-      centres.push_back(c);
+      centers.push_back(c);
   }
-  return centres;
+  return centers;
 }
 
-inline DistanceField balls(const Vec3i& size, double radius, const std::vector<Vec3d>& centres) {
+inline DistanceField balls(const Vec3i& size, double radius, const std::vector<Vec3d>& centers) {
   return makeField(size, [&](const Vec3d& p) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Vec3d& c : centres) nearest = std::min(nearest, dot(p - c, p - c));
+    for (const Vec3d& c : centers) nearest = std::min(nearest, dot(p - c, p - c));
     return std::sqrt(nearest) - radius;
   });
 }
@@ -117,17 +114,8 @@ inline DistanceField gathered(const DistanceField& example, const Origins& origi
 template <class Function>
 Origins makeOrigins(const Vec3i& size, const Function& origin) {
   Origins origins(size);
-  for (int k = 0; k < size.z; ++k)
-    for (int j = 0; j < size.y; ++j)
-      for (int i = 0; i < size.x; ++i) origins(i, j, k) = origin(Vec3i{i, j, k});
+  forEachCell(size, [&](const Vec3i& p) { origins[p] = origin(p); });
   return origins;
-}
-
-/// What `work` returns on `threads` threads.
-template <class Work>
-auto onThreads(int threads, const Work& work) {
-  tbb::task_arena arena(threads);
-  return arena.execute(work);
 }
 
 }  // namespace exemplar::testing

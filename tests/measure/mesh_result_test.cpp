@@ -22,7 +22,7 @@ using testing::ballPacking;
 using testing::balls;
 using ::testing::HasSubstr;
 
-/// `field` with voxels of `h` whose first sample stands at `origin`.
+/// `field` with voxels of `h` whose first sample is at `origin`.
 DistanceField placed(DistanceField field, double h, const Vec3d& origin) {
   for (float& v : field.values.values()) v *= static_cast<float>(h);
   field.truncation = static_cast<float>(8 * h);
@@ -81,7 +81,7 @@ TEST(MeshResult, ScoresAsTheFieldDoes) {
   EXPECT_NEAR(again.dense.meanIou, field.dense.meanIou, 0.02);
   EXPECT_NEAR(*again.occupancyRatio, *field.occupancyRatio, 0.02);
   EXPECT_NEAR(*again.surfaceRatio, *field.surfaceRatio, 0.02);
-  // Samples that begin at the mesh's own corner, as if it were an example, tell nothing: what the
+  // Samples that begin at the mesh's own corner, as if it were an example, mean nothing: what the
   // alignment is for.
   TriangleMesh aside = mesh;
   for (Vec3d& p : aside.positions) p += Vec3d{0.5, 0.5, 0.5} * kVoxel;
@@ -95,8 +95,8 @@ TEST(MeshResult, ScoresAsTheFieldDoes) {
 TEST(MeshResult, IsAsLargeAsTheExamplesBorderSays) {
   // Two voxels of air below the ball and five above it.
   const DistanceField example = placed(balls({40, 40, 21}, 7, {{20, 20, 8.5}}), kVoxel, kOrigin);
-  const auto sampled = [&](const std::vector<Vec3d>& centres, const MeshResultOptions& o = {}) {
-    const DistanceField large = placed(balls({100, 100, 100}, 7, centres), kVoxel, kOrigin);
+  const auto sampled = [&](const std::vector<Vec3d>& centers, const MeshResultOptions& o = {}) {
+    const DistanceField large = placed(balls({100, 100, 100}, 7, centers), kVoxel, kOrigin);
     return sampleMeshResult(fieldToMesh(large), example, o).size();
   };
   EXPECT_EQ(sampled({{20, 20, 8.5}}), example.size());
@@ -107,8 +107,8 @@ TEST(MeshResult, IsAsLargeAsTheExamplesBorderSays) {
 
 TEST(MeshResult, ThatIsPlacedElsewhereIsSampledOnTheSameGrid) {
   const DistanceField example = placed(balls({40, 40, 40}, 7, {{20, 20, 20}}), kVoxel, kOrigin);
-  const Vec3d centre = kOrigin + Vec3d{-200.3, 5, 9} * kVoxel;
-  const DistanceField field = sampleMeshResult(makeSphere(centre, 7 * kVoxel, 30), example);
+  const Vec3d center = kOrigin + Vec3d{-200.3, 5, 9} * kVoxel;
+  const DistanceField field = sampleMeshResult(makeSphere(center, 7 * kVoxel, 30), example);
   const Vec3d step = (field.origin - example.origin) / kVoxel;
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(step[axis], std::round(step[axis]), 1e-6);
   EXPECT_EQ(field.size(), (Vec3i{15, 15, 15}));

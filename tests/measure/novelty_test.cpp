@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "tests/measure/fields.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -55,7 +56,7 @@ TEST(CopyDistance, IsZeroWhereverTheCopyLies) {
   }));
   EXPECT_EQ(copyDistance(e, larger), 0);
   CopyDistanceOptions few;
-  few.placements = 20000;  // of 56 * 26 * 46 = 67,000: a lattice, then the best neighbourhoods
+  few.placements = 20000;  // of 56 * 26 * 46 = 67,000: a lattice, then the best neighborhoods
   EXPECT_EQ(copyDistance(e, larger, few), 0);
   EXPECT_GT(copyDistance(Occupancy(ballPacking({32, 32, 32}, 2, 3)), larger), 0.3);
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/measure/fields.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {

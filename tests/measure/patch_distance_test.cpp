@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "tests/measure/fields.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -77,7 +78,7 @@ TEST(PatchDistance, AgreesWithItsDefinitionForOneComponent) {
     return sum;
   };
   const std::vector<Patch> e = patches(example), r = patches(result);
-  const Patch centre = mean(e);
+  const Patch center = mean(e);
   // A ball's three components across are nearly equal in variance, so power iteration may end
   // anywhere among them; start with the field's gradient along a diagonal and take many steps.
   Patch axis(343);
@@ -85,8 +86,8 @@ TEST(PatchDistance, AgreesWithItsDefinitionForOneComponent) {
   for (int step = 0; step < 400; ++step) {
     Patch next(343);
     for (const Patch& p : e) {
-      const double weight = along(p, axis) - along(centre, axis);
-      for (int c = 0; c < 343; ++c) next[c] += weight * (p[c] - centre[c]);
+      const double weight = along(p, axis) - along(center, axis);
+      for (int c = 0; c < 343; ++c) next[c] += weight * (p[c] - center[c]);
     }
     const double size = std::sqrt(along(next, next));
     for (int c = 0; c < 343; ++c) axis[c] = next[c] / size;

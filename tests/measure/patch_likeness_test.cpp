@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tests/measure/fields.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -34,7 +35,7 @@ class Slow {
     const Vec3i n = field_.size();
     const auto starts = [&](int size) {
       std::vector<int> s;
-      for (int x = low; x + kWindowSize <= size + beyond; x += stride) s.push_back(x);
+      for (int x = low; x + kLikenessWindow <= size + beyond; x += stride) s.push_back(x);
       return s;
     };
     for (const int z : starts(n.z))
@@ -48,9 +49,9 @@ class Slow {
   std::optional<Window> window(const Vec3i& at) const {
     Window cells;
     int core = 0;
-    for (int z = 0; z < kWindowSize; ++z)
-      for (int y = 0; y < kWindowSize; ++y)
-        for (int x = 0; x < kWindowSize; ++x) {
+    for (int z = 0; z < kLikenessWindow; ++z)
+      for (int y = 0; y < kLikenessWindow; ++y)
+        for (int x = 0; x < kLikenessWindow; ++x) {
           const Vec3i p = at + Vec3i{x, y, z};
           const bool solid = field_.values.contains(p) && field_.values[p] < 0;
           cells.push_back(solid);
@@ -213,7 +214,7 @@ TEST(PatchLikeness, DrawsWindowsBySeed) {
   }
   EXPECT_EQ(seen.size(), 3u);
 
-  // Drawing many tells about all: 300 of about 700 windows, an IoU's deviation about 0.1.
+  // Many represent all: 300 of about 700 windows, an IoU's deviation about 0.1.
   PatchLikenessOptions all, some;
   all.windows = all.averaged = 1000000;
   some.windows = some.averaged = 300;

@@ -125,16 +125,16 @@ TEST(Pieces, DebrisOverGroundIsBroken) {
 TEST(Pieces, OfBodiesThatRestOnEachOtherBeginBelowTheSurface) {
   // 27 balls that touch each other, and one that touches them and the box: one component of cells.
   const Vec3i n{56, 56, 56};
-  std::vector<Vec3d> centres;
+  std::vector<Vec3d> centers;
   for (int b = 0; b < 27; ++b)
-    centres.push_back({15.5 + 12 * (b % 3), 15.5 + 12 * (b / 3 % 3), 15.5 + 12 * (b / 9)});
+    centers.push_back({15.5 + 12 * (b % 3), 15.5 + 12 * (b / 3 % 3), 15.5 + 12 * (b / 9)});
   // `crack` is half the width of a crack through the lowest nine.
   const auto heap = [&](double crack) {
     return makeField(n, [&, crack](const Vec3d& p) {
       double phi = length(p - Vec3d{3.5, 15.5, 15.5}) - 6;
-      for (std::size_t b = 0; b < centres.size(); ++b) {
-        double ball = length(p - centres[b]) - 6;
-        if (b < 9) ball = std::max(ball, crack - std::abs(p.x - centres[b].x));
+      for (std::size_t b = 0; b < centers.size(); ++b) {
+        double ball = length(p - centers[b]) - 6;
+        if (b < 9) ball = std::max(ball, crack - std::abs(p.x - centers[b].x));
         phi = std::min(phi, ball);
       }
       return phi;

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "tests/measure/fields.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -27,7 +28,7 @@ TEST(EikonalResidual, IsZeroForADistanceAndNotForNoise) {
   });
   // Central differences of a linear field, in floats of size 30: 30 * 2^-24 * 2.
   EXPECT_LT(*measureSeams(plane, plane).eikonalResidual, 1e-5);
-  // At distance d from the centre of a ball the central difference is short by about 1 / (3 d²).
+  // At distance d from the center of a ball the central difference is short by about 1 / (3 d²).
   const DistanceField round = ball(n, {16, 16, 16}, 9);
   EXPECT_LT(*measureSeams(round, round).eikonalResidual, 1.0 / (3 * 6 * 6));
 

@@ -15,11 +15,7 @@
 namespace exemplar::kernels {
 namespace {
 
-std::span<const Kernels* const> all() {
-  int count = 0;
-  const Kernels* const* kernels = availableKernels(count);
-  return {kernels, static_cast<std::size_t>(count)};
-}
+std::span<const Kernels* const> all() { return availableKernels(); }
 
 int draw(const Random& random, std::uint64_t cell, int low, int high) {
   return low + int(random.below(std::uint32_t(high - low + 1), cell));

@@ -1,6 +1,0 @@
-// exemplar: give it one example; get as much more of it as you want.
-// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
-
-#define EXEMPLAR_KERNELS avx512
-#define EXEMPLAR_KERNELS_NAME "AVX-512"
-#include "search/kernels_impl.h"
