@@ -16,7 +16,10 @@ namespace exemplar {
 /// Nearly O(1) a call.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count = 0) : parent_(count) {
+  explicit DisjointSets(std::size_t count = 0) { reset(count); }
+  /// Starts over with `count` numbers, each a set of its own; keeps the memory.
+  void reset(std::size_t count) {
+    parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
   }
   /// How many numbers there are, not how many sets.

@@ -8,7 +8,7 @@
 
 namespace exemplar {
 
-/// Input that cannot be honoured: an unreadable file, an option out of range, a size that would not
+/// Input that cannot be honored: an unreadable file, an option out of range, a size that would not
 /// fit in memory, an output that cannot be written. The message is one line, names the file (and
 /// line, where there is one) or the option, and says what would be right. The command answers it
 /// with exit status 2.

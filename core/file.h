@@ -8,11 +8,13 @@
 #include <string>
 #include <string_view>
 
+#include "core/progress.h"
+
 namespace exemplar {
 
 /// The whole content of a file. Throws `InputError` when it is not a readable regular file, is
-/// empty, or is longer than the memory that is available.
-std::string readFile(const std::filesystem::path& path);
+/// empty, or is longer than the memory that is available. Throws `Cancelled`.
+std::string readFile(const std::filesystem::path& path, const Progress& progress = {});
 
 /// A path's ending in lower case, with its dot: ".obj"; empty where there is none.
 std::string lowerExtension(const std::filesystem::path& path);
@@ -34,8 +36,8 @@ class OutputFile {
   ~OutputFile();
 
   const std::filesystem::path& temporaryPath() const { return temporary_; }
-  /// Makes `bytes` the temporary file's whole content.
-  void write(std::string_view bytes);
+  /// Makes `bytes` the temporary file's whole content. Throws `Cancelled`.
+  void write(std::string_view bytes, const Progress& progress = {});
   /// Puts the file in its place.
   void commit();
 
@@ -44,6 +46,7 @@ class OutputFile {
 };
 
 /// An `OutputFile` written and put in its place at once.
-void writeFile(const std::filesystem::path& path, std::string_view bytes);
+void writeFile(const std::filesystem::path& path, std::string_view bytes,
+               const Progress& progress = {});
 
 }  // namespace exemplar

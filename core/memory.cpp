@@ -10,10 +10,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 #include <fstream>
 #include <limits>
-#include <sstream>
+#include <optional>
+#include <string_view>
 
 #include "core/error.h"
 
@@ -28,32 +29,46 @@ std::string readable(double bytes) {
     ++unit;
   }
   char text[32];
-  std::snprintf(text, sizeof text, bytes < 10 ? "%.1f %s" : "%.0f %s", bytes, units[unit]);
-  return text;
+  const auto [end, error] =
+      std::to_chars(text, text + sizeof text, bytes, std::chars_format::fixed, bytes < 10 ? 1 : 0);
+  return std::string(text, end) + " " + units[unit];
+}
+
+/// The whole number that a text begins with, after blanks.
+std::optional<std::uint64_t> numberIn(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{}) return std::nullopt;
+  return number;
 }
 
 /// The first number in a file, or the largest one where there is none ("max", no such file).
 std::uint64_t readNumber(const char* path) {
   std::ifstream in(path);
-  std::uint64_t number = 0;
-  return in >> number ? number : std::numeric_limits<std::uint64_t>::max();
+  std::string line;
+  std::getline(in, line);
+  return numberIn(line).value_or(std::numeric_limits<std::uint64_t>::max());
+}
+
+/// What a file of lines "NAME:   NUMBER kB", as Linux describes memory in, gives for a name, in
+/// bytes; nothing where it does not.
+std::optional<std::uint64_t> readBytes(const char* path, std::string_view name) {
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(name)) continue;
+    const auto kilobytes = numberIn(std::string_view(line).substr(name.size()));
+    if (kilobytes) return *kilobytes * 1024;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::uint64_t availableMemoryBytes() {
-  std::uint64_t available = std::numeric_limits<std::uint64_t>::max();
-  std::ifstream in("/proc/meminfo");
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    std::string name;
-    std::uint64_t kilobytes = 0;
-    if (words >> name >> kilobytes && name == "MemAvailable:") available = kilobytes * 1024;
-  }
-  if (available == std::numeric_limits<std::uint64_t>::max()) {
-    available = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-  }
+  std::uint64_t available = readBytes("/proc/meminfo", "MemAvailable:")
+                                .value_or(static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                                          static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)));
   const std::uint64_t limit = readNumber("/sys/fs/cgroup/memory.max");
   if (limit != std::numeric_limits<std::uint64_t>::max()) {
     const std::uint64_t used = readNumber("/sys/fs/cgroup/memory.current");
@@ -63,6 +78,8 @@ std::uint64_t availableMemoryBytes() {
 }
 
 std::uint64_t peakResidentBytes() {
+  // `ru_maxrss` would count what ran in this process before it became this program, too.
+  if (const auto peak = readBytes("/proc/self/status", "VmHWM:")) return *peak;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
 #ifdef __APPLE__

@@ -15,7 +15,7 @@ std::uint64_t availableMemoryBytes();
 /// The largest resident size that this process has had, in bytes.
 std::uint64_t peakResidentBytes();
 
-/// Lets `peakResidentBytes` start anew from what is resident now, after memory that nothing uses
+/// Restarts `peakResidentBytes` from what is resident now, after memory that nothing uses
 /// was given back. False where the system does not offer it (other than Linux): the peak stays.
 bool resetPeakResident();
 

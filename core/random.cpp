@@ -15,10 +15,9 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t p0 = kMultiplier0 * counter[0];
     const std::uint64_t p1 = kMultiplier1 * counter[2];
-    counter = {static_cast<std::uint32_t>(p1 >> 32) ^ counter[1] ^ key[0],
-               static_cast<std::uint32_t>(p1),
-               static_cast<std::uint32_t>(p0 >> 32) ^ counter[3] ^ key[1],
-               static_cast<std::uint32_t>(p0)};
+    counter = {
+        static_cast<std::uint32_t>(p1 >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(p1),
+        static_cast<std::uint32_t>(p0 >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(p0)};
     key[0] += kWeyl0;
     key[1] += kWeyl1;
   }
@@ -26,10 +25,9 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
 }
 
 std::uint64_t Random::bits(std::uint64_t cell, std::uint32_t draw) const {
-  const auto r = philox4x32({static_cast<std::uint32_t>(cell),
-                             static_cast<std::uint32_t>(cell >> 32), draw, stream_},
-                            {static_cast<std::uint32_t>(seed_),
-                             static_cast<std::uint32_t>(seed_ >> 32)});
+  const auto r = philox4x32(
+      {static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(cell >> 32), draw, stream_},
+      {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
   return std::uint64_t{r[0]} << 32 | r[1];
 }
 

@@ -8,7 +8,7 @@
 namespace exemplar {
 
 /// The sRGB transfer curve (IEC 61966-2-1) and its inverse, on 0..1. Pictures and the vertex
-/// colours of .ply, .obj and .off files are sRGB; colours in memory and in .glb files are linear.
+/// colors of .ply, .obj and .off files are sRGB; colors in memory and in .glb files are linear.
 double srgbToLinear(double srgb);
 double linearToSrgb(double linear);
 

@@ -12,7 +12,7 @@
 namespace exemplar {
 
 /// Pictures of one size as an animation that repeats for ever (GIF 89a), each shown for
-/// `centiseconds` (2..65535). Up to 256 colours all in all are kept exactly; more are brought to a
+/// `centiseconds` (2..65535). Up to 256 colors all in all are kept exactly; more are brought to a
 /// fixed palette of 6 x 7 x 6 levels by ordered dithering. Opacity is left out. The same pictures
 /// give the same bytes. Throws `InputError` for no pictures, pictures of different sizes, or sides
 /// longer than 65,535.

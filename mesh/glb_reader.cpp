@@ -9,9 +9,9 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/text_scanner.h"
 #include "mesh/gltf_document.h"
 #include "mesh/mesh_formats.h"
-#include "mesh/text_scanner.h"
 
 namespace exemplar {
 namespace {
@@ -59,14 +59,14 @@ struct Instance {
   Transform transform;
 };
 
-/// How a material's base-colour texture is looked up.
+/// How a material's base-color texture is looked up.
 struct TextureUse {
   std::uint64_t texCoord = 0;
   std::array<double, 2> offset{0, 0}, scale{1, 1};
   double rotation = 0;
 
   /// The texture coordinate, v up, for one in the file, v down (KHR_texture_transform turns
-  /// anticlockwise as seen on the picture).
+  /// counterclockwise as seen on the picture).
   Vec2f apply(double u, double v) const {
     const double c = std::cos(rotation), s = std::sin(rotation);
     const double scaledU = u * scale[0], scaledV = v * scale[1];
@@ -75,7 +75,7 @@ struct TextureUse {
   }
 };
 
-/// Gives each different pair of position and colour one vertex of a mesh.
+/// Gives each different pair of position and color one vertex of a mesh.
 class Joiner {
  public:
   struct Key {
@@ -101,10 +101,10 @@ class Joiner {
   std::unordered_map<Key, std::uint32_t, Hash> indexOf;
 };
 
-class GlbReader {
+class GltfReader {
  public:
-  GlbReader(std::string_view bytes, const std::string& name, const SiblingFile& sibling)
-      : in_(bytes, name, sibling), name_(name) {
+  GltfReader(std::string_view bytes, const MeshSource& source)
+      : in_(bytes, source), source_(source) {
     materialUsed_.resize(in_.count("materials"), false);
     textureUses_.resize(in_.count("materials"));
   }
@@ -112,7 +112,11 @@ class GlbReader {
   TriangleMesh read() {
     findInstances();
     decodeMeshes();
-    for (const Instance& instance : instances_) add(instance);
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+      source_.progress.report("placing meshes", 0.5 + 0.5 * static_cast<double>(i) /
+                                                          static_cast<double>(instances_.size()));
+      add(instances_[i]);
+    }
     finishMaterials();
     return std::move(mesh_);
   }
@@ -218,11 +222,14 @@ class GlbReader {
         bytes += static_cast<double>(p.triangles.size() * 40);
       }
     }
-    requireMemory(bytes, name_ + ": this scene with its copies of meshes", "use a smaller one");
+    requireMemory(bytes, source_.name + ": this scene with its copies of meshes",
+                  "use a smaller one");
     if (vertices >= kNone) in_.fail("the scene has more than 4294967294 vertices");
   }
 
   DecodedMesh decodeMesh(std::uint64_t index) {
+    source_.progress.report("decoding meshes", 0.5 * static_cast<double>(meshes_.size()) /
+                                                   static_cast<double>(in_.count("meshes") + 1));
     DecodedMesh mesh;
     const std::string place = "meshes[" + std::to_string(index) + "]";
     const Json* primitives = in_.array(in_.element("meshes", index, place), "primitives", place);
@@ -289,8 +296,7 @@ class GlbReader {
                             static_cast<float>(c[i + 2]),
                             colors.components == 4 ? static_cast<float>(c[i + 3]) : 1.0f});
       for (const float sample : set.colors.back()) {
-        if (!(std::abs(sample) < 1e6f))
-          in_.fail(colors.place + " has a colour that is not in 0..1");
+        if (!(std::abs(sample) < 1e6f)) in_.fail(colors.place + " has a color that is not in 0..1");
       }
     }
     return set;
@@ -408,6 +414,7 @@ class GlbReader {
       const std::vector<std::uint32_t>& vertex = vertexOf[p.set];
       if (!p.uvs.empty()) mesh_.uvs.resize(mesh_.triangles.size());
       for (std::size_t t = 0; t < p.triangles.size(); ++t) {
+        if (t % 16384 == 0) source_.progress.check();
         auto [a, b, c] = p.triangles[t];
         // A mirrored node turns triangles inside out.
         if (mirrors) std::swap(b, c);
@@ -428,6 +435,7 @@ class GlbReader {
     vertexOf.reserve(set.positions.size());
     if (!set.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), {1, 1, 1, 1});
     for (std::size_t v = 0; v < set.positions.size(); ++v) {
+      if (v % 16384 == 0) source_.progress.check();
       const Vec3d p = instance.transform(set.positions[v]);
       if (const char* problem = coordinateProblem(p)) {
         in_.fail(std::string("a vertex, as its node places it, ") + problem);
@@ -556,7 +564,7 @@ class GlbReader {
   }
 
   GltfDocument in_;
-  std::string name_;
+  const MeshSource& source_;
   TriangleMesh mesh_;
   std::vector<Instance> instances_;
   std::map<std::uint64_t, DecodedMesh> meshes_;
@@ -567,8 +575,8 @@ class GlbReader {
 
 }  // namespace
 
-TriangleMesh parseGlb(std::string_view bytes, const std::string& name, const SiblingFile& sibling) {
-  return GlbReader(bytes, name, sibling).read();
+TriangleMesh parseGltf(std::string_view bytes, const MeshSource& source) {
+  return GltfReader(bytes, source).read();
 }
 
 }  // namespace exemplar

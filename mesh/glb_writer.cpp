@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "core/base64.h"
 #include "core/error.h"
 #include "mesh/mesh_formats.h"
 
@@ -38,7 +39,7 @@ struct SplitVertices {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-SplitVertices splitVertices(const TriangleMesh& mesh) {
+SplitVertices splitVertices(const TriangleMesh& mesh, const Progress& progress) {
   SplitVertices out;
   std::vector<std::uint32_t> first(mesh.positions.size(), kNone);
   for (const auto& triangle : mesh.triangles) {
@@ -60,6 +61,7 @@ SplitVertices splitVertices(const TriangleMesh& mesh) {
   std::vector<bool> hasUv(out.source.size(), false);
   std::vector<std::uint32_t> next(out.source.size(), kNone);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (t % 16384 == 0) progress.check();
     auto& triangle = out.triangles.emplace_back();
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t v = mesh.triangles[t][c];
@@ -89,11 +91,13 @@ float unit(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 class GlbWriter {
  public:
   /// Materials and textures are those of `mesh`, and so are the triangles where there are no parts.
-  GlbWriter(const TriangleMesh& mesh, bool yUp) : mesh_(mesh), part_(&mesh), yUp_(yUp) {}
+  GlbWriter(const TriangleMesh& mesh, bool yUp, bool plain, const Progress& progress)
+      : mesh_(mesh), part_(&mesh), yUp_(yUp), plain_(plain), progress_(progress) {}
 
   std::string write() {
     start(Json::array({{{"mesh", 0}}}));
     json_["meshes"] = Json::array({addPrimitives()});
+    progress_.report("writing", 0.5);
     return finish();
   }
 
@@ -141,7 +145,7 @@ class GlbWriter {
     json_["bufferViews"] = std::move(views_);
     json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
     if (!extensions_.empty()) json_["extensionsUsed"] = std::move(extensions_);
-    return container();
+    return plain_ ? plainJson() : container();
   }
 
   /// Some of the triangles with the vertices that they use.
@@ -229,7 +233,8 @@ class GlbWriter {
 
   /// A mesh of the file: one primitive for each material, all with the same vertices.
   Json addPrimitives() {
-    const SplitVertices vertices = splitVertices(*part_);
+    const SplitVertices vertices = splitVertices(*part_, progress_);
+    progress_.check();
     binary_.reserve(binary_.size() + vertices.source.size() * (part_->hasColors() ? 28 : 12) +
                     vertices.uvs.size() * 8 + vertices.triangles.size() * 12);
     Json attributes{{"POSITION", addPositions(vertices.source)}};
@@ -247,11 +252,13 @@ class GlbWriter {
     const std::size_t materials = part_->hasMaterials() ? part_->materials.size() : 1;
     std::vector<std::vector<std::uint32_t>> trianglesOf(materials);
     for (std::size_t t = 0; t < part_->triangles.size(); ++t) {
+      if (t % 16384 == 0) progress_.check();
       trianglesOf[part_->hasMaterials() ? part_->triangleMaterials[t] : 0].push_back(
           static_cast<std::uint32_t>(t));
     }
     const std::size_t begin = binary_.size();
     for (const auto& triangles : trianglesOf) {
+      progress_.check();
       for (const std::uint32_t t : triangles) {
         for (const std::uint32_t v : vertices.triangles[t]) appendLittle(binary_, v);
       }
@@ -328,9 +335,17 @@ class GlbWriter {
     return textureOf_[index] = static_cast<int>(textures_.size() - 1);
   }
 
+  /// The JSON alone, its buffer embedded as base64.
+  std::string plainJson() {
+    json_["buffers"][0]["uri"] = "data:application/octet-stream;base64," + encodeBase64(binary_);
+    return text();
+  }
+
+  /// Names may hold bytes that are not UTF-8; they are replaced rather than refused.
+  std::string text() const { return json_.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
   std::string container() const {
-    // Names may hold bytes that are not UTF-8; they are replaced rather than refused.
-    std::string json = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string json = text();
     while (json.size() % 4 != 0) json += ' ';
     const std::size_t length = 12 + 8 + json.size() + 8 + binary_.size();
     if (length > std::numeric_limits<std::uint32_t>::max()) {
@@ -352,6 +367,8 @@ class GlbWriter {
   const TriangleMesh& mesh_;
   const TriangleMesh* part_;  // what is being written: the mesh, or a part of it
   bool yUp_;
+  bool plain_;  // JSON alone rather than a binary container
+  Progress progress_;
   std::size_t meshes_ = 0;  // meshes of the file so far
   Json json_;
   Json accessors_ = Json::array(), views_ = Json::array(), images_ = Json::array(),
@@ -363,10 +380,17 @@ class GlbWriter {
 
 }  // namespace
 
-std::string formatGlb(const TriangleMesh& mesh, bool yUp) { return GlbWriter(mesh, yUp).write(); }
+std::string formatGlb(const TriangleMesh& mesh, bool yUp, const Progress& progress) {
+  return GlbWriter(mesh, yUp, false, progress).write();
+}
 
-std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp) {
-  return GlbWriter(mesh, yUp).write(instances);
+std::string formatGltf(const TriangleMesh& mesh, bool yUp, const Progress& progress) {
+  return GlbWriter(mesh, yUp, true, progress).write();
+}
+
+std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp,
+                      const Progress& progress) {
+  return GlbWriter(mesh, yUp, false, progress).write(instances);
 }
 
 }  // namespace exemplar

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base64.h"
 #include "core/error.h"
-#include "mesh/text_scanner.h"
+#include "core/text.h"
+#include "core/text_scanner.h"
 
 namespace exemplar {
 namespace {
@@ -42,7 +44,7 @@ std::uint64_t bytesOf(int componentType) {
   }
 }
 
-/// Calls `body` with a value of the C++ type that a component type stands for.
+/// Calls `body` with a value of the C++ type that a component type denotes.
 template <class Body>
 void withType(int componentType, const Body& body) {
   switch (componentType) {
@@ -83,31 +85,7 @@ std::string unescaped(std::string_view uri) {
   return text;
 }
 
-/// The bytes that base64 text stands for; nothing when it is not base64.
-std::optional<std::string> decodeBase64(std::string_view text) {
-  while (text.ends_with('=')) text.remove_suffix(1);
-  std::string bytes;
-  bytes.reserve(text.size() * 3 / 4);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const int digit = c >= 'A' && c <= 'Z'   ? c - 'A'
-                      : c >= 'a' && c <= 'z' ? c - 'a' + 26
-                      : c >= '0' && c <= '9' ? c - '0' + 52
-                      : c == '+'             ? 62
-                      : c == '/'             ? 63
-                                             : -1;
-    if (digit < 0) return std::nullopt;
-    bits = (bits << 6 | static_cast<std::uint32_t>(digit)) & 0xffffff;
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes += static_cast<char>(bits >> count & 0xff);
-  }
-  return bytes;
-}
-
-/// Extensions that change how the file is to be read, and that the reader honours or that only
+/// Extensions that change how the file is to be read, and that the reader honors or that only
 /// change the look in ways that `Material` does not hold.
 bool isKnown(const std::string& extension) {
   for (const char* known : {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",
@@ -119,11 +97,7 @@ bool isKnown(const std::string& extension) {
 
 }  // namespace
 
-GltfDocument::GltfDocument(std::string_view glb, std::string name, const SiblingFile& sibling)
-    : name_(std::move(name)), sibling_(sibling), fileBytes_(glb.size()) {
-  if (glb.size() < 4 || littleAt<std::uint32_t>(glb.data()) != kMagic) {
-    fail("not a binary glTF file: it should begin with 'glTF'");
-  }
+std::string_view GltfDocument::unpack(std::string_view glb) {
   if (glb.size() < 12) fail("the file is truncated: it ends in its header");
   const std::uint32_t version = littleAt<std::uint32_t>(glb.data() + 4);
   if (version != 2) fail("glTF version " + std::to_string(version) + "; save it as version 2.0");
@@ -155,11 +129,27 @@ GltfDocument::GltfDocument(std::string_view glb, std::string name, const Sibling
     }
   }
   if (!json) fail("the file has no JSON chunk");
+  return *json;
+}
+
+GltfDocument::GltfDocument(std::string_view bytes, const MeshSource& source)
+    : source_(source), fileBytes_(bytes.size()) {
+  std::string decoded;
+  std::string_view json;
+  if (bytes.size() >= 4 && littleAt<std::uint32_t>(bytes.data()) == kMagic) {
+    json = unpack(bytes);
+  } else {
+    json = asUtf8(bytes, decoded);
+    const std::size_t first = json.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos || json[first] != '{') {
+      fail("not a glTF file: it should begin with 'glTF' (binary) or with '{' (JSON)");
+    }
+  }
   try {
-    root_ = Json::parse(json->begin(), json->end());
+    root_ = Json::parse(json.begin(), json.end());
   } catch (const Json::parse_error& e) {
     fail("its JSON cannot be read: malformed at byte " + std::to_string(e.byte) + " of " +
-         std::to_string(json->size()));
+         std::to_string(json.size()));
   } catch (const Json::exception&) {
     fail("its JSON cannot be read");
   }
@@ -186,7 +176,7 @@ void GltfDocument::refuseExtensions() const {
 }
 
 void GltfDocument::fail(const std::string& message) const {
-  throw InputError(name_ + ": " + message);
+  throw InputError(source_.name + ": " + message);
 }
 
 std::uint64_t GltfDocument::count(const char* array) const {
@@ -270,7 +260,7 @@ const Json* GltfDocument::array(const Json& object, const char* key,
 
 std::optional<std::string> GltfDocument::readUri(const std::string& uri,
                                                  const std::string& place) const {
-  if (!uri.starts_with("data:")) return sibling_(unescaped(uri));
+  if (!uri.starts_with("data:")) return source_.siblingBytes(unescaped(uri));
   const std::size_t comma = uri.find(',');
   if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64")) {
     fail(place + ".uri should be base64 data or a file's name");
@@ -413,7 +403,7 @@ std::vector<double> GltfDocument::readNumbers(const GltfAccessor& a) const {
     const auto read = [&](const char* from, double* to) {
       for (int c = 0; c < a.components; ++c) {
         const double value = static_cast<double>(littleAt<T>(from + c * sizeof(T)));
-        // -128 stands for -1, as -127 does.
+        // -128 means -1, as -127 does.
         to[c] = scale == 1 ? value : std::max(value / scale, -1.0);
       }
     };

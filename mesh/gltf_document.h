@@ -35,16 +35,17 @@ struct GltfAccessor {
   const char* sparseValues = nullptr;
 };
 
-/// A binary glTF 2.0 file, its JSON and its buffers, read with suspicion: every index, offset,
-/// count and type is checked before it is used, and what is wrong is an `InputError` that names it
-/// ("FILE: accessors[3].count should be ..."). The bytes must outlive the document.
+/// A glTF 2.0 file, binary or plain JSON, and its buffers, read with suspicion: every index,
+/// offset, count and type is checked before it is used, and what is wrong is an `InputError` that
+/// names it
+/// ("FILE: accessors[3].count should be ..."). The bytes and the source must outlive the document.
 class GltfDocument {
  public:
   using Json = nlohmann::json;
 
-  /// Takes the container apart and parses the JSON. Refuses extensions that a reader must know to
-  /// make sense of the file, and that this one does not.
-  GltfDocument(std::string_view glb, std::string name, const SiblingFile& sibling);
+  /// Takes the container apart where there is one, and parses the JSON. Refuses extensions that a
+  /// reader must know to make sense of the file, and that this one does not.
+  GltfDocument(std::string_view bytes, const MeshSource& source);
 
   const Json& root() const { return root_; }
 
@@ -82,9 +83,10 @@ class GltfDocument {
   std::string_view buffer(std::uint64_t index, const std::string& place);
   std::optional<std::string> readUri(const std::string& uri, const std::string& place) const;
   void refuseExtensions() const;
+  /// The JSON in a binary container, whose binary chunk becomes `binary_`.
+  std::string_view unpack(std::string_view glb);
 
-  std::string name_;
-  const SiblingFile& sibling_;
+  const MeshSource& source_;
   std::uint64_t fileBytes_ = 0;
   std::string_view binary_;
   Json root_;

@@ -175,11 +175,12 @@ void writePngOf(const std::filesystem::path& path, const Image<Sample>& image) {
 }  // namespace
 
 Image16 readPng16(const std::filesystem::path& path) {
-  const std::string bytes = readFile(path);
-  if (!std::string_view(bytes).starts_with(kPngSignature)) {
-    throw InputError(path.string() + ": not a PNG file");
-  }
-  return decodePng<std::uint16_t>(bytes, path.string());
+  return decodePng16(readFile(path), path.string());
+}
+
+Image16 decodePng16(std::string_view bytes, const std::string& name) {
+  if (!bytes.starts_with(kPngSignature)) throw InputError(name + ": not a PNG file");
+  return decodePng<std::uint16_t>(bytes, name);
 }
 
 Image8 decodeImage(std::string_view bytes, const std::string& name) {

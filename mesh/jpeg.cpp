@@ -72,7 +72,7 @@ bool start(Decoder& decoder, std::string_view bytes) {
     decoder.info.out_color_space = JCS_RGB;
   } else {
     std::snprintf(decoder.message, sizeof decoder.message,
-                  "a JPEG with %d components; save it as RGB or grey", decoder.info.num_components);
+                  "a JPEG with %d components; save it as RGB or gray", decoder.info.num_components);
     return false;
   }
   jpeg_calc_output_dimensions(&decoder.info);

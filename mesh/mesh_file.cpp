@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { None, Obj, Ply, Stl, Off, Glb };
+enum class Format { None, Obj, Ply, Stl, Off, Glb, Gltf };
 
 Format formatOf(const fs::path& path) {
   const std::string ending = lowerExtension(path);
@@ -27,17 +27,18 @@ Format formatOf(const fs::path& path) {
   if (ending == ".stl") return Format::Stl;
   if (ending == ".off") return Format::Off;
   if (ending == ".glb") return Format::Glb;
+  if (ending == ".gltf") return Format::Gltf;
   return Format::None;
 }
 
 bool isYUp(Format format, UpAxis up) {
   if (up != UpAxis::Default) return up == UpAxis::Y;
-  return format == Format::Obj || format == Format::Glb;
+  return format == Format::Obj || format == Format::Glb || format == Format::Gltf;
 }
 
 [[noreturn]] void failAtEnding(const fs::path& path) {
   throw InputError(path.string() +
-                   ": not a mesh file's ending; use .obj, .ply, .stl, .off or .glb");
+                   ": not a mesh file's ending; use .obj, .ply, .stl, .off, .glb or .gltf");
 }
 
 /// The file called `name` in a file, as seen from the folder of that file; files that were written
@@ -68,19 +69,30 @@ void appendAny(std::string& text, T value) {
 
 bool isMeshFile(const fs::path& path) { return formatOf(path) != Format::None; }
 
-TriangleMesh readMesh(const fs::path& path, const MeshFileOptions& options) {
-  const Format format = formatOf(path);
-  if (format == Format::None) failAtEnding(path);
-  const std::string bytes = readFile(path);
-  const std::string name = path.string();
-  const SiblingFile sibling = [&](const std::string& file) {
-    return readSibling(path.parent_path(), file);
-  };
-  TriangleMesh mesh = format == Format::Obj   ? parseObj(bytes, name, sibling)
-                      : format == Format::Ply ? parsePly(bytes, name)
-                      : format == Format::Stl ? parseStl(bytes, name)
-                      : format == Format::Off ? parseOff(bytes, name)
-                                              : parseGlb(bytes, name, sibling);
+TriangleMesh readMesh(const fs::path& path, const MeshFileOptions& options,
+                      const Progress& progress) {
+  if (formatOf(path) == Format::None) failAtEnding(path);
+  const std::string bytes = readFile(path, progress.part(0, 0.1));
+  MeshFileOptions beside = options;
+  if (!beside.folder) beside.folder = path.parent_path();
+  return readMesh(bytes, path.string(), beside, progress.part(0.1, 1));
+}
+
+TriangleMesh readMesh(std::string_view bytes, const std::string& name,
+                      const MeshFileOptions& options, const Progress& progress) {
+  const Format format = formatOf(name);
+  if (format == Format::None) failAtEnding(name);
+  MeshSource source{.name = name, .warnings = options.warnings, .progress = progress};
+  if (options.folder) {
+    source.sibling = [folder = *options.folder](const std::string& file) {
+      return readSibling(folder, file);
+    };
+  }
+  TriangleMesh mesh = format == Format::Obj   ? parseObj(bytes, source)
+                      : format == Format::Ply ? parsePly(bytes, source)
+                      : format == Format::Stl ? parseStl(bytes, source)
+                      : format == Format::Off ? parseOff(bytes, source)
+                                              : parseGltf(bytes, source);
   if (isYUp(format, options.up)) {
     for (Vec3d& p : mesh.positions) p = fromFileAxes(p, true);
   }
@@ -88,29 +100,32 @@ TriangleMesh readMesh(const fs::path& path, const MeshFileOptions& options) {
   return mesh;
 }
 
-void writeMesh(const fs::path& path, const TriangleMesh& mesh, const MeshFileOptions& options) {
+void writeMesh(const fs::path& path, const TriangleMesh& mesh, const MeshFileOptions& options,
+               const Progress& progress) {
   const Format format = formatOf(path);
   if (format == Format::None) failAtEnding(path);
   validate(mesh, path.string());
   const bool yUp = isYUp(format, options.up);
+  const Progress formatting = progress.part(0, 0.8), writing = progress.part(0.8, 1);
+  OutputFile out(path);
   if (format != Format::Obj) {
-    OutputFile out(path);
-    out.write(format == Format::Ply   ? formatPly(mesh, yUp)
-              : format == Format::Stl ? formatStl(mesh, yUp)
-              : format == Format::Off ? formatOff(mesh, yUp)
-                                      : formatGlb(mesh, yUp));
+    out.write(format == Format::Ply   ? formatPly(mesh, yUp, formatting)
+              : format == Format::Stl ? formatStl(mesh, yUp, formatting)
+              : format == Format::Off ? formatOff(mesh, yUp, formatting)
+              : format == Format::Glb ? formatGlb(mesh, yUp, formatting)
+                                      : formatGltf(mesh, yUp, formatting),
+              writing);
     out.commit();
     return;
   }
-  OutputFile out(path);
-  const ObjFiles files = formatObj(mesh, path.stem().string(), yUp);
-  out.write(files.obj);
+  const ObjFiles files = formatObj(mesh, path.stem().string(), yUp, formatting);
+  out.write(files.obj, writing);
   // All are written before the first is put in its place, and the .obj comes last: when it is
   // there, so is what it names.
   std::vector<std::unique_ptr<OutputFile>> siblings;
   for (const NamedBytes& file : files.siblings) {
     siblings.push_back(std::make_unique<OutputFile>(path.parent_path() / file.name));
-    siblings.back()->write(file.bytes);
+    siblings.back()->write(file.bytes, writing.part(1, 1));
   }
   for (const auto& file : siblings) file->commit();
   out.commit();

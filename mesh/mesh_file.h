@@ -4,7 +4,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
 
+#include "core/progress.h"
+#include "core/warnings.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
@@ -19,28 +24,35 @@ enum class UpAxis {
 
 struct MeshFileOptions {
   UpAxis up = UpAxis::Default;
+  /// Receives a line for whatever a file holds and the mesh cannot, and the other way round; null
+  /// drops the lines.
+  Warnings* warnings = nullptr;
+  /// Where files are that a mesh names (materials, textures, buffers). By default the folder of the
+  /// mesh's own file; none for bytes in memory, whose materials then keep only their names.
+  std::optional<std::filesystem::path> folder;
 };
 
 /// Whether the path ends in one of the endings that `readMesh` and `writeMesh` know:
-/// `.obj .ply .stl .off .glb`, in any case.
+/// `.obj .ply .stl .off .glb .gltf`, in any case.
 bool isMeshFile(const std::filesystem::path& path);
 
 /// Reads a triangle mesh; polygons are cut into triangles, concave ones along diagonals inside
 /// them. The result passes `validate`.
 ///
-/// `.obj`: materials and base-colour textures from its `.mtl` (a missing `.mtl` is no error: the
+/// `.obj`: materials and base-color textures from its `.mtl` (a missing `.mtl` is no error: the
 /// materials keep their names; a missing texture, or one that is no PNG or JPEG, leaves a material
-/// without), vertex colours after the coordinates, UVs. Only materials that faces use are kept.
-/// `.ply`: ASCII and binary of both byte orders, vertex colours, face colours (a material for
+/// without), vertex colors after the coordinates, UVs. Only materials that faces use are kept.
+/// `.ply`: ASCII and binary of both byte orders, vertex colors, face colors (a material for
 /// each), per-vertex `s,t`/`u,v`, per-corner `texcoord`, triangle strips, and the materials that
-/// `writeMesh` adds. `.stl`: ASCII and binary, equal vertices joined. `.off`: text, with colours of
+/// `writeMesh` adds. `.stl`: ASCII and binary, equal vertices joined. `.off`: text, with colors of
 /// vertices
-/// (`COFF`) and faces, normals and UVs (`ST`). `.glb` (glTF 2.0 binary): every mesh of the scene
-/// with its node's transform, materials, `COLOR_0`, the UVs of the base-colour texture, embedded
-/// textures. Vertices that were split for normals or UVs are joined again, so that closed surfaces
-/// are closed; skins and morph targets stay at rest; compressed meshes are refused.
+/// (`COFF`) and faces, normals and UVs (`ST`). `.glb` and `.gltf` (glTF 2.0, binary or JSON): every
+/// mesh of the scene with its node's transform, materials, `COLOR_0`, the UVs of the base-color
+/// texture, embedded textures. Vertices that were split for normals or UVs are joined again, so
+/// that closed surfaces are closed; skins and morph targets stay at rest; compressed meshes are
+/// refused.
 ///
-/// Colours are linear in memory and in `.glb`. The vertex and face colours of `.ply`, `.obj` and
+/// Colors are linear in memory and in `.glb`. The vertex and face colors of `.ply`, `.obj` and
 /// `.off` are taken to be sRGB, as Blender and MeshLab write them; `Kd` and `Ke` in a `.mtl` are
 /// linear.
 ///
@@ -48,24 +60,29 @@ bool isMeshFile(const std::filesystem::path& path);
 /// truncated, indices of vertices that do not exist, NaN or infinite coordinates, no triangle.
 /// Takes about 0.3 s for a million triangles; memory grows with the file, whatever its header
 /// claims.
-TriangleMesh readMesh(const std::filesystem::path& path, const MeshFileOptions& options = {});
+TriangleMesh readMesh(const std::filesystem::path& path, const MeshFileOptions& options = {},
+                      const Progress& progress = {});
+
+/// The same from the bytes of a file. `name` is what errors call it; its ending says the format.
+TriangleMesh readMesh(std::string_view bytes, const std::string& name,
+                      const MeshFileOptions& options = {}, const Progress& progress = {});
 
 /// Writes a mesh in the format of the path's ending, with what that format can hold:
 ///
-/// | format | coordinates | colours | UVs | materials | textures |
+/// | format | coordinates | colors | UVs | materials | textures |
 /// |---|---|---|---|---|---|
 /// | `.obj` | exact | exact | exact | in `STEM.mtl` | beside it, as `STEM_NAME` |
-/// | `.ply` | exact | 8 bits sRGB | exact | exact, and as face colours | - |
+/// | `.ply` | exact | 8 bits sRGB | exact | exact, and as face colors | - |
 /// | `.stl` | float | - | - | - | - |
-/// | `.off` | exact | 8 bits sRGB | - | colour, 8 bits sRGB | - |
-/// | `.glb` | float | exact, clamped to 0..1 | v to 2^-24 | exact | embedded |
+/// | `.off` | exact | 8 bits sRGB | - | color, 8 bits sRGB | - |
+/// | `.glb`, `.gltf` | float | exact, clamped to 0..1 | v to 2^-24 | exact | embedded |
 ///
-/// "Exact" is what comes back from `readMesh`; 8-bit colours that came from a file come back
+/// "Exact" is what comes back from `readMesh`; 8-bit colors that came from a file come back
 /// exactly, too. A `.glb` has one primitive for each material, in their order, with the triangles
 /// in theirs; its vertices are those that triangles use, split only where UVs differ. The file is
 /// whole or not there, and the same mesh gives the same bytes. Throws `InputError` when the mesh
 /// does not pass `validate` or the file cannot be written.
 void writeMesh(const std::filesystem::path& path, const TriangleMesh& mesh,
-               const MeshFileOptions& options = {});
+               const MeshFileOptions& options = {}, const Progress& progress = {});
 
 }  // namespace exemplar

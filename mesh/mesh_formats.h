@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/progress.h"
+#include "core/warnings.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
@@ -16,16 +18,32 @@ namespace exemplar {
 /// The content of a file that lies beside the one being read, or nothing when there is none.
 using SiblingFile = std::function<std::optional<std::string>(const std::string& name)>;
 
-// Each format in memory. `name` is what errors call the file; every parser throws `InputError` for
-// what is malformed and never reads outside of `bytes`. Parsers leave coordinates as they are in
-// the file; formatters turn z up into y up where `yUp` says so. What a parser returns has finite
-// coordinates below 1e15 and valid indices, but may lack triangles. A formatter's mesh is valid.
+/// What a parser is given beside a file's bytes.
+struct MeshSource {
+  std::string name;              ///< what errors and warnings call the file
+  SiblingFile sibling = {};      ///< finds the files that it names; empty where none can be found
+  Warnings* warnings = nullptr;  ///< receives what is left out; null drops the lines
+  Progress progress = {};
 
-TriangleMesh parseObj(std::string_view bytes, const std::string& name, const SiblingFile& sibling);
-TriangleMesh parsePly(std::string_view bytes, const std::string& name);
-TriangleMesh parseStl(std::string_view bytes, const std::string& name);
-TriangleMesh parseOff(std::string_view bytes, const std::string& name);
-TriangleMesh parseGlb(std::string_view bytes, const std::string& name, const SiblingFile& sibling);
+  std::optional<std::string> siblingBytes(const std::string& file) const {
+    return sibling ? sibling(file) : std::nullopt;
+  }
+  /// Warns with the file's name in front.
+  void warn(const std::string& what) const { exemplar::warn(warnings, name + ": " + what); }
+};
+
+// Each format in memory. Every parser throws `InputError` for what is malformed and never reads
+// outside of `bytes`; what is only unusual, or cannot be kept, is a warning. Parsers leave
+// coordinates as they are in the file; formatters turn z up into y up where `yUp` says so. What a
+// parser returns has finite coordinates below 1e15 and valid indices, but may lack triangles. A
+// formatter's mesh is valid. All report and throw `Cancelled`.
+
+TriangleMesh parseObj(std::string_view bytes, const MeshSource& source);
+TriangleMesh parsePly(std::string_view bytes, const MeshSource& source);
+TriangleMesh parseStl(std::string_view bytes, const MeshSource& source);
+TriangleMesh parseOff(std::string_view bytes, const MeshSource& source);
+/// glTF 2.0, binary (`.glb`) or as plain JSON (`.gltf`).
+TriangleMesh parseGltf(std::string_view bytes, const MeshSource& source);
 
 /// A file to be written beside another one.
 struct NamedBytes {
@@ -38,11 +56,14 @@ struct ObjFiles {
   std::string obj;
   std::vector<NamedBytes> siblings;
 };
-ObjFiles formatObj(const TriangleMesh& mesh, const std::string& stem, bool yUp);
-std::string formatPly(const TriangleMesh& mesh, bool yUp);
-std::string formatStl(const TriangleMesh& mesh, bool yUp);
-std::string formatOff(const TriangleMesh& mesh, bool yUp);
-std::string formatGlb(const TriangleMesh& mesh, bool yUp);
+ObjFiles formatObj(const TriangleMesh& mesh, const std::string& stem, bool yUp,
+                   const Progress& progress = {});
+std::string formatPly(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
+std::string formatStl(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
+std::string formatOff(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
+std::string formatGlb(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
+/// A plain `.gltf`, its buffer embedded.
+std::string formatGltf(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
 
 /// Parts of a mesh, each placed any number of times.
 struct MeshInstances {
@@ -54,7 +75,8 @@ struct MeshInstances {
   std::vector<Placement> placements;
 };
 /// A `.glb` with a mesh for each part that has triangles and is placed, and a node for each place.
-std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp);
+std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp,
+                      const Progress& progress = {});
 
 /// World to file, for a file with y up, and back. Subtracting from 0 makes no negative zeros.
 inline Vec3d toFileAxes(const Vec3d& p, bool yUp) { return yUp ? Vec3d{p.x, p.z, 0 - p.y} : p; }
@@ -66,13 +88,20 @@ const char* coordinateProblem(const Vec3d& p);
 /// What a picture's first bytes say it is: "image/png", "image/jpeg", or empty.
 std::string imageMimeType(std::string_view bytes);
 
-/// Materials of triangles that come with an sRGB colour each, as faces do in `.ply` and `.off`: one
-/// material for each colour, in the order in which they come. `colors` has one for each triangle.
+/// Materials of triangles that come with an sRGB color each, as faces do in `.ply` and `.off`: one
+/// material for each color, in the order in which they come. `colors` has one for each triangle.
 void setFaceColors(TriangleMesh& mesh, const std::vector<std::array<std::uint8_t, 4>>& colors);
 
-/// A linear RGBA colour as four 8-bit samples: sRGB, and opacity as it is.
+/// A linear RGBA color as four 8-bit samples: sRGB, and opacity as it is.
 std::array<std::uint8_t, 4> toRgba8(const std::array<float, 4>& color);
 std::array<float, 4> fromRgba8(const std::array<std::uint8_t, 4>& color);
+
+/// Reports step `done` of `all` to `progress` every 16,384 steps: quick enough for inner loops.
+inline void reportNowAndThen(const Progress& progress, const char* stage, std::size_t done,
+                             std::size_t all) {
+  if (done % 16384 == 0)
+    progress.report(stage, static_cast<double>(done) / static_cast<double>(all));
+}
 
 /// Appends the shortest text that reads back as the same number.
 void appendNumber(std::string& text, double value);

@@ -11,31 +11,12 @@
 #include <span>
 #include <vector>
 
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "mesh/self_intersection.h"
 
 namespace exemplar {
 namespace {
-
-/// Sets of indices that are joined one pair after another.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 bool hasEqualCorners(const std::array<std::uint32_t, 3>& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
@@ -97,12 +78,13 @@ struct Faults {
   }
 };
 
-void countEdgesAndFans(const TriangleMesh& mesh, MeshHealth& health) {
+void countEdgesAndFans(const TriangleMesh& mesh, MeshHealth& health, const Progress& progress) {
   const CornersAtVertices lists(mesh);
   const auto count = [&](std::size_t v0, std::size_t v1) {
+    progress.check();
     Faults faults;
     std::vector<Side> sides;
-    std::vector<std::uint32_t> fan;
+    DisjointSets fan;
     for (std::size_t v = v0; v < v1; ++v) {
       const std::span<const std::uint64_t> corners(lists.corners.data() + lists.begin[v],
                                                    lists.begin[v + 1] - lists.begin[v]);
@@ -115,19 +97,11 @@ void countEdgesAndFans(const TriangleMesh& mesh, MeshHealth& health) {
       }
       std::sort(sides.begin(), sides.end());
       // Corners belong to one fan where their triangles share a side at the vertex.
-      fan.resize(corners.size());
-      std::iota(fan.begin(), fan.end(), 0u);
-      const auto leader = [&](std::uint32_t n) {
-        while (fan[n] != n) n = fan[n] = fan[fan[n]];
-        return n;
-      };
+      fan.reset(corners.size());
       auto fans = static_cast<std::int64_t>(corners.size());
       for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
         for (end = begin + 1; end < sides.size() && sides[end].other == sides[begin].other; ++end) {
-          const std::uint32_t a = leader(sides[begin].corner), b = leader(sides[end].corner);
-          if (a == b) continue;
-          fan[std::max(a, b)] = std::min(a, b);
-          --fans;
+          fans -= fan.join(sides[begin].corner, sides[end].corner);
         }
         if (sides[begin].other < v) continue;  // an edge counts at its lower end
         const std::size_t triangles = end - begin;
@@ -146,10 +120,12 @@ void countEdgesAndFans(const TriangleMesh& mesh, MeshHealth& health) {
   health.nonManifoldVertices = faults.vertices;
 }
 
-std::int64_t countComponents(const TriangleMesh& mesh) {
+std::int64_t countComponents(const TriangleMesh& mesh, const Progress& progress) {
   DisjointSets sets(mesh.positions.size());
   std::vector<std::uint8_t> used(mesh.positions.size(), 0);
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (t % 65536 == 0) progress.check();
+    const auto& [a, b, c] = mesh.triangles[t];
     sets.join(a, b);
     sets.join(b, c);
     used[a] = used[b] = used[c] = 1;
@@ -176,11 +152,20 @@ double signedVolume(const TriangleMesh& mesh) {
 
 }  // namespace
 
-MeshHealth meshHealth(const TriangleMesh& mesh, const MeshHealthOptions& options) {
+MeshHealth meshHealth(const TriangleMesh& mesh, const Progress& progress) {
+  return meshHealth(mesh, MeshHealthOptions{}, progress);
+}
+
+MeshHealth meshHealth(const TriangleMesh& mesh, const MeshHealthOptions& options,
+                      const Progress& progress) {
+  constexpr const char* kStage = "checking the mesh";
+  // Crossings take several times as long as the rest.
+  const Progress edges = progress.part(0, options.selfIntersections ? 0.2 : 1);
   MeshHealth health;
   health.vertices = static_cast<std::int64_t>(mesh.positions.size());
   health.triangles = static_cast<std::int64_t>(mesh.triangles.size());
   if (mesh.triangles.empty()) return health;
+  edges.report(kStage, 0);
   health.degenerateTriangles = parallelSum<std::int64_t>(0, mesh.triangles.size(), 4096,
                                                          [&](std::size_t begin, std::size_t end) {
                                                            std::int64_t count = 0;
@@ -188,11 +173,16 @@ MeshHealth meshHealth(const TriangleMesh& mesh, const MeshHealthOptions& options
                                                              count += isDegenerate(mesh, t);
                                                            return count;
                                                          });
+  edges.report(kStage, 0.1);
   // Both have much to do that only one thread can.
-  tbb::parallel_invoke([&] { countEdgesAndFans(mesh, health); },
-                       [&] { health.components = countComponents(mesh); });
+  tbb::parallel_invoke([&] { countEdgesAndFans(mesh, health, edges); },
+                       [&] { health.components = countComponents(mesh, edges); });
+  edges.report(kStage, 0.9);
   health.signedVolume = signedVolume(mesh);
-  if (options.selfIntersections) health.selfIntersections = countSelfIntersections(mesh);
+  edges.report(kStage, 1);
+  if (options.selfIntersections) {
+    health.selfIntersections = countSelfIntersections(mesh, progress.part(0.2, 1));
+  }
   return health;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
@@ -34,7 +35,9 @@ struct MeshHealthOptions {
   bool selfIntersections = false;  ///< count them too; several times as slow as the rest
 };
 
-/// O(n log n) for n triangles; the same at any number of threads.
-MeshHealth meshHealth(const TriangleMesh& mesh, const MeshHealthOptions& options = {});
+/// O(n log n) for n triangles; the same at any number of threads. Throws `Cancelled`.
+MeshHealth meshHealth(const TriangleMesh& mesh, const MeshHealthOptions& options = {},
+                      const Progress& progress = {});
+MeshHealth meshHealth(const TriangleMesh& mesh, const Progress& progress);
 
 }  // namespace exemplar

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
+#include "core/text_scanner.h"
 #include "mesh/mesh_formats.h"
-#include "mesh/text_scanner.h"
 
 namespace exemplar {
 namespace {
 
-/// A color is one number for grey or three; `fallback` where it is a spectral curve or CIE XYZ,
+/// A color is one number for gray or three; `fallback` where it is a spectral curve or CIE XYZ,
 /// which nobody writes.
 Vec3f readColor(TextScanner& in, const char* what, const Vec3f& fallback) {
   const char first = in.peek();
@@ -66,7 +66,7 @@ void appendKey(std::string& out, const char* key, float value) {
 
 std::vector<MtlMaterial> parseMtl(std::string_view bytes, const std::string& name) {
   std::vector<MtlMaterial> materials;
-  TextScanner in(bytes, name, true);
+  TextScanner in(bytes, name, {.continued = true, .comments = true});
   bool hasRoughness = false;
   while (in.nextFilledLine()) {
     const std::string_view key = in.word();
@@ -78,10 +78,10 @@ std::vector<MtlMaterial> parseMtl(std::string_view bytes, const std::string& nam
     if (materials.empty()) continue;
     Material& m = materials.back().material;
     if (key == "Kd") {
-      const Vec3f c = readColor(in, "the diffuse colour", {0.8f, 0.8f, 0.8f});
+      const Vec3f c = readColor(in, "the diffuse color", {0.8f, 0.8f, 0.8f});
       m.baseColor = {c.x, c.y, c.z, m.baseColor[3]};
     } else if (key == "Ke") {
-      m.emission = readColor(in, "the emitted colour", {});
+      m.emission = readColor(in, "the emitted color", {});
     } else if (key == "d") {
       if (in.peek() == '-') continue;  // "-halo": opacity that depends on the view
       m.baseColor[3] = static_cast<float>(in.number("the opacity"));

@@ -8,11 +8,11 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/text_scanner.h"
 #include "mesh/color.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/mtl.h"
 #include "mesh/polygon.h"
-#include "mesh/text_scanner.h"
 
 namespace exemplar {
 namespace {
@@ -23,11 +23,12 @@ constexpr std::uint32_t kNone = 0xffffffff;
 /// libraries may be named anywhere.
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& name, const SiblingFile& sibling)
-      : in_(bytes, name, true), sibling_(sibling) {}
+  ObjReader(std::string_view bytes, const MeshSource& source)
+      : in_(bytes, source.name, {.continued = true, .comments = true}), source_(source) {}
 
   TriangleMesh read() {
-    while (in_.nextLine()) {
+    for (std::size_t line = 0; in_.nextLine(); ++line) {
+      if (line % 16384 == 0) source_.progress.report("reading", in_.fraction());
       const std::string_view key = in_.word();
       if (key == "v") {
         readVertex();
@@ -68,7 +69,7 @@ class ObjReader {
       mesh_.colors.push_back({linear(more[0]), linear(more[1]), linear(more[2]),
                               count == 4 ? static_cast<float>(more[3]) : 1.0f});
       for (int i = 0; i < count; ++i) {
-        if (!(std::abs(more[i]) < 1e6)) in_.fail("a vertex colour should be between 0 and 1");
+        if (!(std::abs(more[i]) < 1e6)) in_.fail("a vertex color should be between 0 and 1");
       }
     } else if (!mesh_.colors.empty()) {
       mesh_.colors.push_back({1, 1, 1, 1});
@@ -158,7 +159,7 @@ class ObjReader {
 
   bool addLibrary(const std::string& file) {
     if (!libraries_.insert(file).second) return true;
-    const std::optional<std::string> bytes = sibling_(file);
+    const std::optional<std::string> bytes = source_.siblingBytes(file);
     if (!bytes) return false;
     for (MtlMaterial& m : parseMtl(*bytes, in_.name() + ": " + TextScanner::shown(file))) {
       library_.push_back(std::move(m));
@@ -198,7 +199,7 @@ class ObjReader {
     if (file.empty()) return std::nullopt;
     const auto [found, added] = textureOf_.try_emplace(file);
     if (!added) return found->second;
-    std::optional<std::string> bytes = sibling_(file);
+    std::optional<std::string> bytes = source_.siblingBytes(file);
     const std::string mimeType = bytes ? imageMimeType(*bytes) : "";
     if (mimeType.empty()) return std::nullopt;
     found->second = static_cast<std::uint32_t>(mesh_.textures.size());
@@ -225,7 +226,7 @@ class ObjReader {
   }
 
   TextScanner in_;
-  const SiblingFile& sibling_;
+  const MeshSource& source_;
   TriangleMesh mesh_;
   std::vector<Vec2f> uvs_;
   std::vector<std::array<std::uint32_t, 3>> uvIndices_;
@@ -243,7 +244,7 @@ class ObjReader {
   std::vector<std::array<std::uint32_t, 3>> pieces_;
 };
 
-/// `wanted` made fit to stand alone on a line, and unlike all names in `taken`.
+/// `wanted` made fit for a line of its own, and unlike all names in `taken`.
 std::string uniqueName(const std::string& wanted, const std::string& fallback,
                        std::set<std::string>& taken) {
   std::string name;
@@ -316,10 +317,12 @@ void appendColors(std::string& out, const std::array<float, 4>& color, bool with
   appendNumber(out, color[3]);
 }
 
-void appendVertices(std::string& out, const TriangleMesh& mesh, bool yUp) {
+void appendVertices(std::string& out, const TriangleMesh& mesh, bool yUp,
+                    const Progress& progress) {
   const bool withAlpha =
       std::any_of(mesh.colors.begin(), mesh.colors.end(), [](const auto& c) { return c[3] != 1; });
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    reportNowAndThen(progress, "writing vertices", v, mesh.positions.size());
     const Vec3d p = toFileAxes(mesh.positions[v], yUp);
     out += 'v';
     for (const double c : {p.x, p.y, p.z}) {
@@ -332,11 +335,13 @@ void appendVertices(std::string& out, const TriangleMesh& mesh, bool yUp) {
 }
 
 /// Writes each different texture coordinate once; returns the index from 0 for each corner.
-std::vector<std::array<std::uint32_t, 3>> appendUvs(std::string& out, const TriangleMesh& mesh) {
+std::vector<std::array<std::uint32_t, 3>> appendUvs(std::string& out, const TriangleMesh& mesh,
+                                                    const Progress& progress) {
   std::unordered_map<std::uint64_t, std::uint32_t> indexOf;
   std::vector<std::array<std::uint32_t, 3>> indices;
   indices.reserve(mesh.uvs.size());
   for (const auto& corners : mesh.uvs) {
+    reportNowAndThen(progress, "writing texture coordinates", indices.size(), mesh.uvs.size());
     auto& triangle = indices.emplace_back();
     for (int c = 0; c < 3; ++c) {
       const Vec2f uv = corners[c];
@@ -358,11 +363,12 @@ std::vector<std::array<std::uint32_t, 3>> appendUvs(std::string& out, const Tria
 
 }  // namespace
 
-TriangleMesh parseObj(std::string_view bytes, const std::string& name, const SiblingFile& sibling) {
-  return ObjReader(bytes, name, sibling).read();
+TriangleMesh parseObj(std::string_view bytes, const MeshSource& source) {
+  return ObjReader(bytes, source).read();
 }
 
-ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool yUp) {
+ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool yUp,
+                   const Progress& progress) {
   // What is named in a line must not break it, and what starts with '-' would be an option.
   std::string stem = fileStem;
   for (char& c : stem) {
@@ -379,10 +385,12 @@ ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool y
     files.siblings.push_back({stem + ".mtl", formatMtl(materials)});
     out += "mtllib " + stem + ".mtl\n";
   }
-  appendVertices(out, mesh, yUp);
-  const auto uvIndices = appendUvs(out, mesh);
+  appendVertices(out, mesh, yUp, progress.part(0, 0.4));
+  const Progress triangles = progress.part(0.5, 1);
+  const auto uvIndices = appendUvs(out, mesh, progress.part(0.4, 0.5));
   std::uint32_t material = kNone;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    reportNowAndThen(triangles, "writing triangles", t, mesh.triangles.size());
     if (mesh.hasMaterials() && mesh.triangleMaterials[t] != material) {
       material = mesh.triangleMaterials[t];
       out += "usemtl " + materials[material].material.name + "\n";

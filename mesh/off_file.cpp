@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/text_scanner.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/polygon.h"
-#include "mesh/text_scanner.h"
 
 namespace exemplar {
 namespace {
@@ -14,7 +14,8 @@ namespace {
 /// Reads Geomview's OFF: `[ST][C][N]OFF`, the counts, a line for each vertex and face.
 class OffReader {
  public:
-  OffReader(std::string_view bytes, const std::string& name) : in_(bytes, name) {}
+  OffReader(std::string_view bytes, const MeshSource& source)
+      : in_(bytes, source.name), source_(source) {}
 
   TriangleMesh read() {
     readKind();
@@ -28,8 +29,14 @@ class OffReader {
                " bytes are left");
     }
     mesh_.positions.reserve(vertices);
-    for (std::uint64_t i = 0; i < vertices; ++i) readVertex();
-    for (std::uint64_t i = 0; i < faces; ++i) readFace();
+    for (std::uint64_t i = 0; i < vertices; ++i) {
+      if (i % 16384 == 0) source_.progress.report("reading", in_.fraction());
+      readVertex();
+    }
+    for (std::uint64_t i = 0; i < faces; ++i) {
+      if (i % 16384 == 0) source_.progress.report("reading", in_.fraction());
+      readFace();
+    }
     finish();
     return std::move(mesh_);
   }
@@ -88,7 +95,7 @@ class OffReader {
     mesh_.positions.push_back(p);
     if (!hasUvs_ && !hasColors_) return;  // and whatever follows has no meaning here
     readNumbers();
-    // Normal, colour, texture coordinates: in this order.
+    // Normal, color, texture coordinates: in this order.
     std::size_t begin = hasNormals_ ? 3 : 0, end = numbers_.size();
     if (hasUvs_) {
       if (end < begin + 2) in_.fail("a vertex's texture coordinates are missing");
@@ -101,7 +108,7 @@ class OffReader {
     }
     if (hasColors_) {
       if (end != begin + 3 && end != begin + 4)
-        in_.fail("a vertex's colour should have three or four numbers");
+        in_.fail("a vertex's color should have three or four numbers");
       colors_.push_back({numbers_[begin], numbers_[begin + 1], numbers_[begin + 2],
                          end == begin + 4 ? numbers_[begin + 3] : -1});
       checkColor(colors_.back());
@@ -110,7 +117,7 @@ class OffReader {
 
   void checkColor(const std::array<double, 4>& color) {
     for (const double c : color) {
-      if (!(c >= -1 && c <= 255)) in_.fail("a colour should be in 0..1 or 0..255");
+      if (!(c >= -1 && c <= 255)) in_.fail("a color should be in 0..1 or 0..255");
     }
   }
 
@@ -147,7 +154,7 @@ class OffReader {
     }
   }
 
-  /// Whether colours are in 0..255: whole files use one or the other, and only a component above 1
+  /// Whether colors are in 0..255: whole files use one or the other, and only a component above 1
   /// tells which. A missing component is -1.
   static double scaleOf(const std::vector<std::array<double, 4>>& colors) {
     for (const auto& color : colors) {
@@ -161,7 +168,7 @@ class OffReader {
   static std::array<std::uint8_t, 4> toBytes(const std::array<double, 4>& color, double scale) {
     std::array<std::uint8_t, 4> bytes{};
     for (int c = 0; c < 4; ++c) {
-      const double missing = c == 3 ? 255 : 204;  // opaque, light grey
+      const double missing = c == 3 ? 255 : 204;  // opaque, light gray
       bytes[c] = static_cast<std::uint8_t>(
           std::lround(color[c] < 0 ? missing : std::min(color[c] * scale, 255.0)));
     }
@@ -186,6 +193,7 @@ class OffReader {
   }
 
   TextScanner in_;
+  const MeshSource& source_;
   TriangleMesh mesh_;
   bool hasUvs_ = false, hasColors_ = false, hasNormals_ = false;
   std::vector<std::array<double, 4>> colors_, faceColors_;
@@ -205,16 +213,18 @@ void appendColor(std::string& out, const std::array<float, 4>& color) {
 
 }  // namespace
 
-TriangleMesh parseOff(std::string_view bytes, const std::string& name) {
-  return OffReader(bytes, name).read();
+TriangleMesh parseOff(std::string_view bytes, const MeshSource& source) {
+  return OffReader(bytes, source).read();
 }
 
-std::string formatOff(const TriangleMesh& mesh, bool yUp) {
+std::string formatOff(const TriangleMesh& mesh, bool yUp, const Progress& progress) {
+  const Progress vertices = progress.part(0, 0.4), triangles = progress.part(0.4, 1);
   std::string out = mesh.hasColors() ? "COFF\n" : "OFF\n";
   out.reserve(out.size() + mesh.positions.size() * 70 + mesh.triangles.size() * 26);
   appendNumber(out, static_cast<std::uint32_t>(mesh.positions.size()));
   out += ' ' + std::to_string(mesh.triangles.size()) + " 0\n";
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    reportNowAndThen(vertices, "writing vertices", v, mesh.positions.size());
     const Vec3d p = toFileAxes(mesh.positions[v], yUp);
     appendNumber(out, p.x);
     for (const double c : {p.y, p.z}) {
@@ -225,6 +235,7 @@ std::string formatOff(const TriangleMesh& mesh, bool yUp) {
     out += '\n';
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    reportNowAndThen(triangles, "writing triangles", t, mesh.triangles.size());
     out += '3';
     for (const std::uint32_t v : mesh.triangles[t]) {
       out += ' ';

@@ -7,9 +7,9 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/text_scanner.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/polygon.h"
-#include "mesh/text_scanner.h"
 
 namespace exemplar {
 namespace {
@@ -34,7 +34,8 @@ struct Element {
   int find(std::initializer_list<std::string_view> names, bool list = false) const {
     for (const std::string_view wanted : names) {
       for (std::size_t i = 0; i < properties.size(); ++i) {
-        if (properties[i].name == wanted && properties[i].isList == list) return static_cast<int>(i);
+        if (properties[i].name == wanted && properties[i].isList == list)
+          return static_cast<int>(i);
       }
     }
     return -1;
@@ -91,7 +92,7 @@ Header readHeader(TextScanner& in) {
       if (count < 0) in.fail("an element's count should not be negative");
       element.count = static_cast<std::uint64_t>(count);
     } else if (key == "property") {
-      if (header.elements.empty()) in.fail("a property stands before the first element");
+      if (header.elements.empty()) in.fail("a property comes before the first element");
       Property property;
       std::string_view type = in.word();
       if (type == "list") {
@@ -119,7 +120,8 @@ Header readHeader(TextScanner& in) {
 /// lists on the side.
 class Body {
  public:
-  Body(TextScanner& in, Encoding encoding) : in_(in), encoding_(encoding), bytes_(in.afterLine()) {
+  Body(TextScanner& in, Encoding encoding, const Progress& progress)
+      : in_(in), encoding_(encoding), bytes_(in.afterLine()), progress_(progress) {
     const bool nativeIsBig = std::endian::native == std::endian::big;
     swap_ = (encoding == Encoding::Big) != nativeIsBig;
   }
@@ -144,6 +146,7 @@ class Body {
   }
 
   void readRow() {
+    if (rows_++ % 16384 == 0) progress_.report("reading", fraction());
     if (encoding_ == Encoding::Ascii) {
       readTextRow();
     } else {
@@ -160,6 +163,11 @@ class Body {
   }
 
  private:
+  double fraction() const {
+    if (encoding_ == Encoding::Ascii) return in_.fraction();
+    return static_cast<double>(position_) / static_cast<double>(bytes_.size() + 1);
+  }
+
   void readTextRow() {
     do {
       if (!in_.nextLine())
@@ -237,14 +245,15 @@ class Body {
   TextScanner& in_;
   Encoding encoding_;
   std::string_view bytes_;
-  std::size_t position_ = 0;
+  const Progress& progress_;
+  std::size_t position_ = 0, rows_ = 0;
   bool swap_ = false;
   const Element* element_ = nullptr;
   std::vector<double> scalars_;
   std::vector<std::vector<double>> lists_;
 };
 
-/// The properties that hold a colour, each -1 where it is missing.
+/// The properties that hold a color, each -1 where it is missing.
 struct ColorProperties {
   std::array<int, 4> index{-1, -1, -1, -1};
   std::array<double, 4> toByte{};
@@ -266,7 +275,7 @@ struct ColorProperties {
     for (int c = 0; c < 4; ++c) {
       if (index[c] < 0) continue;
       const double value = body.scalar(index[c]) * toByte[c];
-      if (!(value >= -0.5 && value < 255.5)) body.fail("a colour is out of range");
+      if (!(value >= -0.5 && value < 255.5)) body.fail("a color is out of range");
       color[c] = static_cast<std::uint8_t>(std::lround(value));
     }
     return color;
@@ -275,11 +284,12 @@ struct ColorProperties {
 
 class PlyReader {
  public:
-  PlyReader(std::string_view bytes, const std::string& name) : in_(bytes, name) {}
+  PlyReader(std::string_view bytes, const MeshSource& source)
+      : in_(bytes, source.name), source_(source) {}
 
   TriangleMesh read() {
     const Header header = readHeader(in_);
-    Body body(in_, header.encoding);
+    Body body(in_, header.encoding, source_.progress);
     bool hasVertices = false;
     for (const Element& element : header.elements) {
       if (element.properties.empty()) continue;
@@ -449,6 +459,7 @@ class PlyReader {
   }
 
   TextScanner in_;
+  const MeshSource& source_;
   TriangleMesh mesh_;
   std::vector<Vec2f> vertexUvs_;
   std::vector<std::array<std::uint8_t, 4>> faceColors_;
@@ -499,11 +510,12 @@ std::string headerOf(const TriangleMesh& mesh, bool asDouble) {
 
 }  // namespace
 
-TriangleMesh parsePly(std::string_view bytes, const std::string& name) {
-  return PlyReader(bytes, name).read();
+TriangleMesh parsePly(std::string_view bytes, const MeshSource& source) {
+  return PlyReader(bytes, source).read();
 }
 
-std::string formatPly(const TriangleMesh& mesh, bool yUp) {
+std::string formatPly(const TriangleMesh& mesh, bool yUp, const Progress& progress) {
+  const Progress vertices = progress.part(0, 0.4), triangles = progress.part(0.4, 1);
   const auto isFloat = [](double c) { return static_cast<double>(static_cast<float>(c)) == c; };
   const bool asDouble =
       !std::all_of(mesh.positions.begin(), mesh.positions.end(),
@@ -515,6 +527,7 @@ std::string formatPly(const TriangleMesh& mesh, bool yUp) {
     for (const std::uint8_t sample : toRgba8(color)) out += static_cast<char>(sample);
   };
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    reportNowAndThen(vertices, "writing vertices", v, mesh.positions.size());
     const Vec3d p = toFileAxes(mesh.positions[v], yUp);
     for (const double c : {p.x, p.y, p.z}) {
       if (asDouble) {
@@ -526,6 +539,7 @@ std::string formatPly(const TriangleMesh& mesh, bool yUp) {
     if (mesh.hasColors()) appendColor(mesh.colors[v]);
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    reportNowAndThen(triangles, "writing triangles", t, mesh.triangles.size());
     out += '\3';
     for (const std::uint32_t v : mesh.triangles[t]) appendLittle(out, v);
     if (mesh.hasUvs()) {

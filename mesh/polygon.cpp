@@ -23,7 +23,8 @@ bool covers(const Point& a, const Point& b, const Point& c, const Point& p) {
 }
 
 /// The corners in the plane across the polygon's mean normal (Newell's), seen from its tip, so that
-/// the polygon runs anticlockwise. Relative to the first corner, for accuracy far from the origin.
+/// the polygon runs counterclockwise. Relative to the first corner, for accuracy far from the
+/// origin.
 std::vector<Point> project(std::span<const Vec3d> corners) {
   Vec3d normal;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -60,7 +61,7 @@ bool isConvex(const std::vector<Point>& p) {
 }
 
 /// Clips ears in time that grows with the square of the number of corners: clipping one changes
-/// only what its two neighbours are (D. Eberly: "Triangulation by ear clipping", Geometric Tools,
+/// only what its two neighbors are (D. Eberly: "Triangulation by ear clipping", Geometric Tools,
 /// 2002).
 class EarClipper {
  public:
@@ -103,7 +104,7 @@ class EarClipper {
     if (turn(a, b, c) <= 0) return false;
     for (std::uint32_t j = next_[next_[i]]; j != previous_[i]; j = next_[j]) {
       if (!isReflex_[j] || !covers(a, b, c, p_[j])) continue;
-      // Corners that touch the ear's own (a hole joined by a bridge) do not stand in its way.
+      // Corners that touch the ear's own (a hole joined by a bridge) do not block it.
       const auto same = [&](const Point& q) { return p_[j].x == q.x && p_[j].y == q.y; };
       if (!same(a) && !same(b) && !same(c)) return false;
     }

@@ -134,7 +134,8 @@ int orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) 
                            (std::abs(ab) + std::abs(ba)) * std::abs(cd.z);
   constexpr double kEpsilon = 0x1p-53;
   constexpr double kBound = (7 + 56 * kEpsilon) * kEpsilon;  // Shewchuk's o3derrboundA
-  // His determinant is positive where d lies below a, b, c as seen from their anticlockwise side.
+  // His determinant is positive where d lies below a, b, c as seen from their counterclockwise
+  // side.
   if (std::abs(determinant) > kBound * permanent) return -signOf(determinant);
   return -exactOrientation(a, b, c, d);
 }

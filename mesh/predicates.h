@@ -8,7 +8,7 @@
 namespace exemplar {
 
 /// On which side of a triangle's plane a point lies: 1 where `d` sees `a`, `b`, `c` run
-/// anticlockwise, -1 where clockwise, 0 on the plane. The sign of the exact determinant, for
+/// counterclockwise, -1 where clockwise, 0 on the plane. The sign of the exact determinant, for
 /// coordinates whose differences are 0 or between 1e-90 and 1e90 in size: computed in doubles, and
 /// again with expansions where rounding could have changed the sign.
 ///

@@ -68,7 +68,7 @@ TriangleMesh makeSphere(const Vec3d& center, double radius, int frequency) {
 
   TriangleMesh mesh;
   // A vertex is named by what it is a mean of: up to three (corner, weight) pairs in corner order.
-  // So neighbouring faces share the vertices of their common edge.
+  // So neighboring faces share the vertices of their common edge.
   using Key = std::array<std::pair<Index, int>, 3>;
   std::map<Key, Index> known;
   const auto vertex = [&](const std::array<Index, 3>& face, int wa, int wb, int wc) {
@@ -268,7 +268,7 @@ TriangleMesh makeHeightFieldSolid(const Vec3d& corner, double cellSize, int colu
         mesh.triangles.push_back({b, e, d});
       }
     }
-  // The border once around, anticlockwise seen from above; its copy on the floor; a fan beneath.
+  // The border once around, counterclockwise seen from above; its copy on the floor; a fan beneath.
   std::vector<Index> border;
   for (int c = 0; c + 1 < columns; ++c) border.push_back(at(c, 0));
   for (int r = 0; r + 1 < rows; ++r) border.push_back(at(columns - 1, r));

@@ -22,7 +22,7 @@ TriangleMesh makeSphere(const Vec3d& center, double radius, int frequency = 8);
 /// An axis-aligned box: 12 triangles. `box` is not empty and has no side of length 0.
 TriangleMesh makeBox(const Box3d& box);
 
-/// A torus around `axis` (any length but 0). `ringRadius`: from the centre to the middle of the
+/// A torus around `axis` (any length but 0). `ringRadius`: from the center to the middle of the
 /// wire; `wireRadius`: of the wire, less than `ringRadius`. Segments >= 3 along the ring and around
 /// the wire; 2 ringSegments wireSegments triangles.
 TriangleMesh makeTorus(const Vec3d& center, const Vec3d& axis, double ringRadius, double wireRadius,
@@ -36,7 +36,7 @@ TriangleMesh makeCapsule(const Vec3d& a, const Vec3d& b, double radius, int segm
 
 /// A round tube along a polyline with half spheres on its ends. `path`: at least two points, no two
 /// consecutive ones equal; `radii`: one for each point, > 0, or a single one for all. Cross
-/// sections stand across the bisector of the path at each point and do not twist along it. A path
+/// sections lie across the bisector of the path at each point and do not twist along it. A path
 /// that bends tighter than its radius makes a mesh that crosses itself.
 TriangleMesh makeTube(std::span<const Vec3d> path, std::span<const double> radii,
                       int segments = 16);
@@ -55,9 +55,9 @@ TriangleMesh makeSweep(const Vec3d& start, std::span<const SweepSection> section
 /// A tapered blade, as of grass: a flat sweep along a curved spine, widest near its base and
 /// pointed at its tip.
 struct Blade {
-  Vec3d root;               ///< where the middle of its base stands
+  Vec3d root;               ///< where the middle of its base is
   Vec3d up{0, 0, 1};        ///< its direction at the base; any length but 0
-  Vec3d lean{1, 0, 0};      ///< towards where it bends; not parallel to `up`
+  Vec3d lean{1, 0, 0};      ///< toward where it bends; not parallel to `up`
   double length = 1;        ///< along the spine, > 0
   double bend = 0.5;        ///< angle between base and tip, radians
   double twist = 0;         ///< of the cross section about the spine from base to tip, radians
@@ -70,7 +70,7 @@ struct Blade {
 TriangleMesh makeBlade(const Blade& blade, int sections = 16, int segments = 12);
 
 /// The solid under a height field: top surface, walls and a flat floor. `heights`: columns * rows
-/// values, row by row from the smallest y; point (c, r) stands at corner + (c, r) * cellSize in x
+/// values, row by row from the smallest y; point (c, r) is at corner + (c, r) * cellSize in x
 /// and y and at height corner.z + heights[r * columns + c]. columns, rows >= 2; cellSize > 0; every
 /// height is above `floor`, which is measured from corner.z too. Each cell is cut along the
 /// diagonal whose ends differ less in height.

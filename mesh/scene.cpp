@@ -12,12 +12,12 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "mesh/mesh_formats.h"
 #include "mesh/procedural/piece_scenes.h"
 #include "mesh/procedural/processes.h"
 
@@ -29,9 +29,9 @@ namespace fs = std::filesystem;
 /// A scene file's table: gives values by name, checks their ranges, and knows which were asked for.
 class SceneFile {
  public:
-  explicit SceneFile(const fs::path& path) : path_(path.string()) {
+  SceneFile(std::string_view bytes, const std::string& name) : path_(name) {
     try {
-      table_ = toml::parse(readFile(path), path_);
+      table_ = toml::parse(bytes, path_);
     } catch (const toml::parse_error& e) {
       throw InputError(path_ + ":" + std::to_string(e.source().begin.line) + ": " +
                        std::string(e.description()));
@@ -106,9 +106,11 @@ class SceneFile {
   }
   [[noreturn]] void failRange(const toml::node& node, const std::string& key, double low,
                               double high, const std::string& what) const {
-    std::ostringstream text;
-    text << "'" << key << "' must be " << what << " from " << low << " to " << high;
-    fail(node, text.str());
+    std::string text = "'" + key + "' must be " + what + " from ";
+    appendNumber(text, static_cast<float>(low));
+    text += " to ";
+    appendNumber(text, static_cast<float>(high));
+    fail(node, text);
   }
 
   std::string path_;
@@ -116,13 +118,14 @@ class SceneFile {
   std::set<std::string> known_;
 };
 
-using Reader = std::function<ProcessSample(SceneFile&, const Vec3d&, std::uint64_t)>;
+using Reader =
+    std::function<ProcessSample(SceneFile&, const Vec3d&, std::uint64_t, const Progress&)>;
 
 /// Reads the parameters of each kind of process, all of them before anything is made, and makes it.
 const std::map<std::string, Reader>& readers() {
   static const std::map<std::string, Reader> all{
       {"chainmail",
-       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed) {
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
          ChainmailProcess p;
          p.columns = file.integer("columns", p.columns, 1, 64);
          p.rows = 2 * file.integer("row_pairs", p.rows / 2, 1, 64);
@@ -132,19 +135,19 @@ const std::map<std::string, Reader>& readers() {
          p.tilt = file.number("tilt", p.tilt, 0.4, 0.65);
          p.jitter = file.number("jitter", p.jitter, 0, 0.02);
          file.requireNothingElse();
-         return makeChainmail(p, extent, seed);
+         return makeChainmail(p, extent, seed, progress);
        }},
       {"balls",
-       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed) {
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
          BallsProcess p;
          p.side = file.number("side", p.side, 8, 1024);
          p.radius = file.number("radius", p.radius, p.side / 32, p.side / 2);
          p.colors = file.integer("colors", p.colors, 1, 5);
          file.requireNothingElse();
-         return makeBalls(p, extent, seed);
+         return makeBalls(p, extent, seed, progress);
        }},
       {"grid",
-       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed) {
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
          GridProcess p;
          p.cells = file.integer("cells", p.cells, 1, 32);
          p.cell = file.number("cell", p.cell, 1, 1000);
@@ -152,10 +155,10 @@ const std::map<std::string, Reader>& readers() {
          p.ballRadius = file.number("ball_radius", p.ballRadius, p.rodRadius, p.cell / 2);
          p.jitter = file.number("jitter", p.jitter, 0, p.cell / 8);
          file.requireNothingElse();
-         return makeGrid(p, extent, seed);
+         return makeGrid(p, extent, seed, progress);
        }},
       {"fibers",
-       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed) {
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
          FibersProcess p;
          p.side = file.number("side", p.side, 8, 1024);
          p.spacing = file.number("spacing", p.spacing, p.side / 64, p.side);
@@ -165,20 +168,20 @@ const std::map<std::string, Reader>& readers() {
          p.minRadius = file.number("min_radius", std::min(p.minRadius, p.maxRadius),
                                    0.01 * p.spacing, p.maxRadius);
          file.requireNothingElse();
-         return makeFibers(p, extent, seed);
+         return makeFibers(p, extent, seed, progress);
        }},
       {"metal",
-       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed) {
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
          MetalProcess p;
          p.side = file.number("side", p.side, 8, 512);
          p.grain = file.number("grain", p.grain, p.side / 32, p.side / 2);
          p.relief = file.number("relief", p.relief, 0.1, p.side);
          p.depth = file.number("depth", p.depth, 0.5, p.side);
          file.requireNothingElse();
-         return makeMetal(p, extent, seed);
+         return makeMetal(p, extent, seed, progress);
        }},
       {"terrain",
-       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed) {
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
          TerrainProcess p;
          p.side = file.number("side", p.side, 8, 512);
          p.relief = file.number("relief", p.relief, 0.1, p.side);
@@ -186,10 +189,10 @@ const std::map<std::string, Reader>& readers() {
          p.depth = file.number("depth", p.depth, 0.5, p.side);
          p.steps = file.integer("steps", p.steps, 1, 1000);
          file.requireNothingElse();
-         return makeTerrain(p, extent, seed);
+         return makeTerrain(p, extent, seed, progress);
        }},
       {"grass",
-       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed) {
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
          GrassProcess p;
          p.side = file.number("side", p.side, 8, 512);
          p.spacing = file.number("spacing", p.spacing, p.side / 64, p.side);
@@ -198,7 +201,7 @@ const std::map<std::string, Reader>& readers() {
          p.length = file.number("length", p.length, p.width, p.side);
          p.soil = file.number("soil", p.soil, 0.5, p.side);
          file.requireNothingElse();
-         return makeGrass(p, extent, seed);
+         return makeGrass(p, extent, seed, progress);
        }},
   };
   return all;
@@ -230,22 +233,27 @@ std::vector<fs::path> sceneFolders() {
 
 }  // namespace
 
-Scene readScene(const fs::path& path, const SceneOptions& options) {
+Scene readScene(const fs::path& path, const SceneOptions& options, const Progress& progress) {
+  return readScene(readFile(path), path.string(), options, progress);
+}
+
+Scene readScene(std::string_view bytes, const std::string& name, const SceneOptions& options,
+                const Progress& progress) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(options.extent[axis] >= 1 && options.extent[axis] <= 16)) {
       throw InputError("a scene's extent must be 1 to 16 along each axis");
     }
   }
-  SceneFile file(path);
+  SceneFile file(bytes, name);
   Scene scene;
-  scene.name = path.stem().string();
+  scene.name = fs::path(name).stem().string();
   const std::string kind = file.word("kind");
   const auto reader = readers().find(kind);
   const auto pieces = pieceKinds().find(kind);
   if (reader == readers().end() && pieces == pieceKinds().end()) {
     std::string names;
-    for (const auto& [name, read] : readers()) names += (names.empty() ? "" : ", ") + name;
-    for (const auto& [name, make] : pieceKinds()) names += ", " + name;
+    for (const auto& [known, read] : readers()) names += (names.empty() ? "" : ", ") + known;
+    for (const auto& [known, make] : pieceKinds()) names += ", " + known;
     file.failKey("kind", "unknown kind '" + kind + "'; known are " + names);
   }
   scene.resolution = file.integer("resolution", scene.resolution, 8, 1024);
@@ -254,25 +262,26 @@ Scene readScene(const fs::path& path, const SceneOptions& options) {
   const std::uint64_t seed = file.seed("seed");
   ProcessSample sample;
   if (reader != readers().end()) {
-    sample = reader->second(file, options.extent, options.seed.value_or(seed));
+    sample = reader->second(file, options.extent, options.seed.value_or(seed), progress);
   } else {
     file.requireNothingElse();
     if (options.extent != Vec3d{1, 1, 1}) {
-      throw InputError(path.string() +
-                       ": a scene made of model pieces is of one size; use exemplar synth");
+      throw InputError(name +
+                       ": a scene made of model pieces has one size; synthesize a larger one");
     }
     sample = pieces->second();
   }
   scene.mesh = std::move(sample.mesh);
   scene.box = sample.box;
   scene.cell = sample.cell;
-  validate(scene.mesh, path.string());
+  validate(scene.mesh, name);
   return scene;
 }
 
 bool isPieceScene(const fs::path& path) {
   try {
-    return pieceKinds().contains(SceneFile(findScene(path.string())).word("kind"));
+    const fs::path found = findScene(path.string());
+    return pieceKinds().contains(SceneFile(readFile(found), found.string()).word("kind"));
   } catch (const InputError&) {
     return false;
   }
@@ -286,7 +295,8 @@ fs::path findScene(const std::string& name) {
   }
   std::string names;
   for (const std::string& known : bundledScenes()) names += (names.empty() ? "" : ", ") + known;
-  throw InputError(name + ": no such scene; there are " + (names.empty() ? "none" : names));
+  throw InputError(name + ": no such scene; the bundled ones are " +
+                   (names.empty() ? "missing" : names));
 }
 
 std::vector<std::string> bundledScenes() {

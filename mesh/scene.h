@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
@@ -40,15 +42,20 @@ struct SceneOptions {
 /// made of model pieces, castle, city, canyon, cluster, paths, gears, forest, library (each file
 /// states its parameters, all with units and ranges; an unknown key is an error). The same
 /// file and options give the same scene, to the byte. Throws `InputError` naming file, line and
-/// key.
-Scene readScene(const std::filesystem::path& path, const SceneOptions& options = {});
+/// key, and `Cancelled`.
+Scene readScene(const std::filesystem::path& path, const SceneOptions& options = {},
+                const Progress& progress = {});
+
+/// The same from the bytes of a scene file; `name` is what errors call it, and names the scene.
+Scene readScene(std::string_view bytes, const std::string& name, const SceneOptions& options = {},
+                const Progress& progress = {});
 
 /// Whether a scene file's kind is one that is made of model pieces. False where it cannot be read.
 bool isPieceScene(const std::filesystem::path& path);
 
 /// The bundled scene file called `name` ("chainmail"), or a path as it is. Looks in the folder that
 /// EXEMPLAR_SCENES names, in the source tree and in the installed share folder. Throws `InputError`
-/// listing the names there are.
+/// listing the bundled names.
 std::filesystem::path findScene(const std::string& name);
 
 /// The names of the bundled scenes, sorted.

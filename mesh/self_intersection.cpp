@@ -4,6 +4,7 @@
 #include "mesh/self_intersection.h"
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 
 #include "core/parallel.h"
@@ -26,7 +27,7 @@ bool touch(const Box3d& a, const Box3d& b) {
 }
 
 /// A tree of boxes over the triangles: the ones of a node are cut at the median along the longest
-/// side of their centres' box. Balanced, so that its shape follows from the number of triangles:
+/// side of their centers' box. Balanced, so that its shape follows from the number of triangles:
 /// the children of node i are 2 i + 1 and 2 i + 2.
 class BoxTree {
  public:
@@ -113,13 +114,21 @@ bool shareVertex(const std::array<std::uint32_t, 3>& a, const std::array<std::ui
 
 }  // namespace
 
-std::int64_t countSelfIntersections(const TriangleMesh& mesh) {
+std::int64_t countSelfIntersections(const TriangleMesh& mesh, const Progress& progress) {
   if (mesh.triangles.empty()) return 0;
+  constexpr const char* kStage = "looking for crossings";
+  constexpr std::size_t kGrain = 1024;
+  progress.report(kStage, 0);
   const BoxTree tree(mesh);
-  return parallelSum<std::int64_t>(
-      0, mesh.triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
+  // Pieces are counted as they end; reports come one at a time.
+  const double pieces = static_cast<double>((mesh.triangles.size() + kGrain - 1) / kGrain);
+  std::size_t done = 0;
+  std::mutex mutex;
+  const std::int64_t crossings = parallelSum<std::int64_t>(
+      0, mesh.triangles.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         std::int64_t count = 0;
         for (std::size_t t = begin; t < end; ++t) {
+          if (t % 64 == 0) progress.check();
           const auto& triangle = mesh.triangles[t];
           const Vec3d corners[3] = {mesh.positions[triangle[0]], mesh.positions[triangle[1]],
                                     mesh.positions[triangle[2]]};
@@ -131,8 +140,11 @@ std::int64_t countSelfIntersections(const TriangleMesh& mesh) {
             if (trianglesCross(corners, otherCorners)) ++count;
           });
         }
+        const std::lock_guard lock(mutex);
+        progress.report(kStage, 0.1 + 0.9 * static_cast<double>(++done) / pieces);
         return count;
       });
+  return crossings;
 }
 
 }  // namespace exemplar

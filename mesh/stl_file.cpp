@@ -7,8 +7,8 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/text_scanner.h"
 #include "mesh/mesh_formats.h"
-#include "mesh/text_scanner.h"
 
 namespace exemplar {
 namespace {
@@ -61,7 +61,8 @@ void appendLittle(std::string& out, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) out += static_cast<char>(value >> (8 * i) & 255);
 }
 
-TriangleMesh parseBinary(std::string_view bytes, const std::string& name) {
+TriangleMesh parseBinary(std::string_view bytes, const MeshSource& source) {
+  const std::string& name = source.name;
   const std::uint64_t count = littleUint(bytes.data() + 80);
   const std::uint64_t needed = kHeaderBytes + count * kTriangleBytes;
   if (needed > bytes.size()) {
@@ -73,6 +74,7 @@ TriangleMesh parseBinary(std::string_view bytes, const std::string& name) {
   Joiner joiner(mesh);
   joiner.reserve(count);
   for (std::uint64_t t = 0; t < count; ++t) {
+    reportNowAndThen(source.progress, "reading", t, count);
     // A normal, which follows from the corners, the corners, and two bytes without a meaning.
     const char* at = bytes.data() + kHeaderBytes + t * kTriangleBytes + 12;
     std::array<std::uint32_t, 3> triangle{};
@@ -89,22 +91,23 @@ TriangleMesh parseBinary(std::string_view bytes, const std::string& name) {
   return mesh;
 }
 
-TriangleMesh parseText(std::string_view bytes, const std::string& name) {
+TriangleMesh parseText(std::string_view bytes, const MeshSource& source) {
   TriangleMesh mesh;
   Joiner joiner(mesh);
-  TextScanner in(bytes, name);
+  TextScanner in(bytes, source.name);
   in.nextLine();
   std::array<std::uint32_t, 3> triangle{};
   int corners = -1;  // in the facet so far; -1 outside of facets
   bool ended = false;
-  while (in.nextLine()) {
+  for (std::size_t line = 0; in.nextLine(); ++line) {
+    if (line % 16384 == 0) source.progress.report("reading", in.fraction());
     const std::string_view key = in.word();
     if (key == "facet") {
       if (corners >= 0) in.fail("a facet begins inside a facet");
       corners = 0;
       ended = false;
     } else if (key == "vertex") {
-      if (corners < 0) in.fail("a vertex stands outside of a facet");
+      if (corners < 0) in.fail("a vertex is outside of a facet");
       if (corners == 3) in.fail("a facet has more than three vertices");
       const double x = in.number("x"), y = in.number("y"), z = in.number("z");
       const Vec3d p{x, y, z};
@@ -129,20 +132,20 @@ TriangleMesh parseText(std::string_view bytes, const std::string& name) {
 
 }  // namespace
 
-TriangleMesh parseStl(std::string_view bytes, const std::string& name) {
+TriangleMesh parseStl(std::string_view bytes, const MeshSource& source) {
   // Many binary files begin with "solid" too; their size gives them away.
   const bool solid = bytes.starts_with("solid");
   if (bytes.size() >= kHeaderBytes) {
     const std::uint64_t needed =
         kHeaderBytes + std::uint64_t{littleUint(bytes.data() + 80)} * kTriangleBytes;
-    if (!solid || bytes.size() == needed) return parseBinary(bytes, name);
+    if (!solid || bytes.size() == needed) return parseBinary(bytes, source);
   }
-  if (solid) return parseText(bytes, name);
-  throw InputError(name +
+  if (solid) return parseText(bytes, source);
+  throw InputError(source.name +
                    ": not an STL file: it should begin with 'solid' or have 84 bytes or more");
 }
 
-std::string formatStl(const TriangleMesh& mesh, bool yUp) {
+std::string formatStl(const TriangleMesh& mesh, bool yUp, const Progress& progress) {
   if (mesh.triangles.size() > 0xffffffff) {
     throw InputError("an STL file holds at most 4294967295 triangles; write a .ply");
   }
@@ -156,6 +159,7 @@ std::string formatStl(const TriangleMesh& mesh, bool yUp) {
     }
   };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    reportNowAndThen(progress, "writing triangles", t, mesh.triangles.size());
     appendVector(toFileAxes(normalized(areaNormal(mesh, t)), yUp));
     for (const std::uint32_t v : mesh.triangles[t])
       appendVector(toFileAxes(mesh.positions[v], yUp));

@@ -52,7 +52,7 @@ std::uint32_t addMaterial(std::vector<Material>& materials, const Material& mate
   return static_cast<std::uint32_t>(materials.size() - 1);
 }
 
-/// Appends `from`, which stands for `fromCount` elements, to `to`, which stands for `toCount`;
+/// Appends `from`, which covers `fromCount` elements, to `to`, which covers `toCount`;
 /// where only one of the two is there, the other's elements become `missing`.
 template <class T>
 void appendAttribute(std::vector<T>& to, std::size_t toCount, const std::vector<T>& from,
@@ -88,11 +88,11 @@ void validate(const TriangleMesh& mesh, const std::string& name) {
       }
     }
   }
-  checkCount(mesh.colors.size(), vertices, "colours", "vertices", name);
+  checkCount(mesh.colors.size(), vertices, "colors", "vertices", name);
   checkCount(mesh.uvs.size(), triangles, "texture coordinates", "triangles", name);
   checkCount(mesh.triangleMaterials.size(), triangles, "material indices", "triangles", name);
   for (const auto& color : mesh.colors) {
-    if (!allFinite(color)) throw InputError(name + ": a vertex colour is NaN or infinite");
+    if (!allFinite(color)) throw InputError(name + ": a vertex color is NaN or infinite");
   }
   for (const auto& corners : mesh.uvs) {
     for (const Vec2f& uv : corners) {

@@ -32,17 +32,18 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// Indexed triangles with materials, colours and texture coordinates: any soup a file can hold,
-/// manifold or not. World units, right-handed, z up; triangles wind anticlockwise seen from outside.
+/// Indexed triangles with materials, colors and texture coordinates: any soup a file can hold,
+/// manifold or not. World units, right-handed, z up; triangles wind counterclockwise seen from
+/// outside.
 ///
 /// Attributes are there for every element or not at all (an empty vector). `validate` checks it.
 struct TriangleMesh {
   std::vector<Vec3d> positions;                         ///< n vertices
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< m triangles, indices into positions
 
-  std::vector<std::array<float, 4>> colors;        ///< n or 0: linear RGBA a vertex, 0..1
-  std::vector<std::array<Vec2f, 3>> uvs;           ///< m or 0: a corner's texture coordinates, v up
-  std::vector<std::uint32_t> triangleMaterials;    ///< m or 0: indices into materials
+  std::vector<std::array<float, 4>> colors;      ///< n or 0: linear RGBA a vertex, 0..1
+  std::vector<std::array<Vec2f, 3>> uvs;         ///< m or 0: a corner's texture coordinates, v up
+  std::vector<std::uint32_t> triangleMaterials;  ///< m or 0: indices into materials
 
   std::vector<Material> materials;
   std::vector<Texture> textures;

@@ -5,7 +5,7 @@
 #include <charconv>
 
 #include "core/memory.h"
-#include "mesh/text_scanner.h"
+#include "core/text_scanner.h"
 #include "voxelize/label_file.h"
 
 namespace exemplar {

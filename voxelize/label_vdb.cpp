@@ -13,7 +13,7 @@
 #include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "mesh/text_scanner.h"
+#include "core/text_scanner.h"
 #include "sdf/openvdb_ready.h"
 #include "sdf/vdb_grids.h"
 #include "voxelize/label_file.h"

@@ -78,7 +78,7 @@ class Bytes {
 
 struct Model {
   Vec3i size;
-  std::string_view voxels;  ///< x, y, z, colour of each
+  std::string_view voxels;  ///< x, y, z, color of each
 };
 
 /// A rotation by quarter turns and mirrorings, and a translation: q = M p + t, row by row.
@@ -206,7 +206,7 @@ class VoxReader {
                    std::to_string(at(2)) + ") is outside its model of " + std::to_string(size.x) +
                    " x " + std::to_string(size.y) + " x " + std::to_string(size.z) + " cells");
       }
-      if (at(3) == 0) file_.fail("a voxel has colour 0; expected 1 to 255");
+      if (at(3) == 0) file_.fail("a voxel has color 0; expected 1 to 255");
     }
     models_.push_back({size, voxels});
   }
@@ -229,7 +229,7 @@ class VoxReader {
     node.layer = chunk.integer();
     const std::int32_t frames = chunk.count(4);
     if (frames == 0) return;
-    const Attributes frame = chunk.attributes();  // the first one; animations stand still
+    const Attributes frame = chunk.attributes();  // the first one; animations are not played
     if (const auto turn = frame.find("_r"); turn != frame.end()) {
       setRotation(turn->second, node.placement);
     }
@@ -283,7 +283,7 @@ class VoxReader {
     const Placement here = outer * node.placement;
     for (const std::int64_t s : here.shift) {
       if (std::abs(s) > std::numeric_limits<std::int32_t>::max()) {
-        file_.fail("a node stands too far away");
+        file_.fail("a node is too far away");
       }
     }
     for (const std::int32_t child : node.children) visit(child, here, depth + 1, result);
@@ -358,7 +358,7 @@ class VoxReader {
       if (!used[c]) continue;
       labelOf[c] = static_cast<Label>(grid.labels.size());
       LabelLook& look = grid.labels.emplace_back();
-      look.name = "colour " + std::to_string(c);
+      look.name = "color " + std::to_string(c);
       for (int i = 0; i < 3; ++i) look.color[i] = srgb8ToLinear(palette_[c][i]);
     }
     grid.cells = Array3D<Label>(size);
@@ -369,7 +369,7 @@ class VoxReader {
   }
 
   /// A cube of six levels a channel without black, blue fastest, then ramps of red, green, blue and
-  /// grey.
+  /// gray.
   static std::array<Rgba, 256> defaultPalette() {
     std::array<Rgba, 256> palette{};
     for (int n = 0; n < 215; ++n) {

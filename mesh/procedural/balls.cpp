@@ -131,8 +131,9 @@ constexpr std::array<std::array<float, 4>, 5> kColors{{{0.64f, 0.10f, 0.07f, 1},
 
 }  // namespace
 
-ProcessSample makeBalls(const BallsProcess& process, const Vec3d& extent, std::uint64_t seed) {
-  const Random random(seed, 0xba11);
+ProcessSample makeBalls(const BallsProcess& process, const Vec3d& extent, std::uint64_t seed,
+                        const Progress& progress) {
+  const Random random(seed, stream::kBalls);
   const double r = process.radius;
   const Vec3d window = extent * process.side;
   // In ball radii: a bin wider than the window, whose lowest layers and loose top stay outside.
@@ -141,6 +142,7 @@ ProcessSample makeBalls(const BallsProcess& process, const Vec3d& extent, std::u
   const int count = static_cast<int>(bin.x * bin.y * bin.z * 0.56 / 4.18879);
   Heap heap(bin.x, bin.y);
   for (int n = 0; n < count; ++n) {
+    progress.report("dropping balls", 0.6 * n / count);
     heap.drop(random.uniform(0, bin.x, n, 0), random.uniform(0, bin.y, n, 1));
   }
   // What overlap the small steps left is taken off all radii.
@@ -151,6 +153,7 @@ ProcessSample makeBalls(const BallsProcess& process, const Vec3d& extent, std::u
   std::vector<TriangleMesh> byColor(process.colors);
   const std::vector<Vec3d>& centers = heap.centers();
   for (std::size_t n = 0; n < centers.size(); ++n) {
+    progress.report("making balls", 0.6 + 0.4 * static_cast<double>(n) / count);
     // The bin wraps: every copy that reaches into the window counts.
     for (int wrap = 0; wrap < 9; ++wrap) {
       const Vec3d c = (centers[n] - Vec3d{margin, margin, below} +

@@ -109,7 +109,7 @@ class Canyon {
   /// The sides and the bottom, where the scene ends.
   void walls(int x, int y) {
     const std::array<bool, 4> ends{x + 1 == width(), y + 1 == depth(), x == 0, y == 0};
-    // A layer of rock is of one colour wherever the scene ends: layers follow in their order.
+    // A layer of rock is of one color wherever the scene ends: layers follow in their order.
     for (int layer = 0; layer <= kPlateau; ++layer) {
       const double a = std::max(0.5, 1.0 * layer), b = layer + 1;
       const std::uint32_t rock = strata_[layer];

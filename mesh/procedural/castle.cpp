@@ -121,7 +121,7 @@ class Castle {
     }
   }
 
-  /// Steps that rise towards the wall, from the side across it.
+  /// Steps that rise toward the wall, from the side across it.
   void stairs(unsigned sides) {
     int turn = 0;
     while (!(turnedSides(sides, -turn) & kEast)) ++turn;

@@ -18,8 +18,8 @@ constexpr double kColumnPitch = 2.5, kRowPitch = 0.7;
 }  // namespace
 
 ProcessSample makeChainmail(const ChainmailProcess& process, const Vec3d& extent,
-                            std::uint64_t seed) {
-  const Random random(seed, 0xc4a1);
+                            std::uint64_t seed, const Progress& progress) {
+  const Random random(seed, stream::kChainmail);
   const double r = process.ringRadius;
   const double pitchX = kColumnPitch * r, pitchY = kRowPitch * r;
   const double half = r * std::sin(process.tilt) + process.wireRadius;
@@ -31,11 +31,12 @@ ProcessSample makeChainmail(const ChainmailProcess& process, const Vec3d& extent
 
   const Material steel{
       .name = "steel", .baseColor = {0.56f, 0.57f, 0.58f, 1}, .metallic = 1, .roughness = 0.35f};
-  // Rings that reach into the window have their centres within a ring of it.
+  // Rings that reach into the window have their centers within a ring of it.
   const int margin = 3;
   const int columns = static_cast<int>(std::ceil(process.columns * extent.x)) + margin;
   const int rows = static_cast<int>(std::ceil(process.rows * extent.y)) + 2 * margin;
   for (int row = -2 * margin; row < rows; ++row) {
+    progress.report("weaving rings", static_cast<double>(row + 2 * margin) / (rows + 2 * margin));
     for (int column = -margin; column < columns; ++column) {
       const std::uint64_t key = static_cast<std::uint64_t>(row + 1000) * 100000 + (column + 1000);
       const auto jitter = [&](int draw) {

@@ -12,8 +12,9 @@
 
 namespace exemplar {
 
-ProcessSample makeFibers(const FibersProcess& process, const Vec3d& extent, std::uint64_t seed) {
-  const Random places(seed, 0xf1b1), shapes(seed, 0xf1b2);
+ProcessSample makeFibers(const FibersProcess& process, const Vec3d& extent, std::uint64_t seed,
+                         const Progress& progress) {
+  const Random places(seed, stream::kFiberPlaces), shapes(seed, stream::kFiberShapes);
   const double margin = process.spacing;
   const Vec3d window = extent * process.side;
   ProcessSample sample;
@@ -25,6 +26,7 @@ ProcessSample makeFibers(const FibersProcess& process, const Vec3d& extent, std:
       {.name = "pale fiber", .baseColor = {0.76f, 0.64f, 0.44f, 1}, .roughness = 0.6f}};
   TriangleMesh byMaterial[2];
   for (std::size_t n = 0; n < axes.size(); ++n) {
+    progress.report("laying fibers", static_cast<double>(n) / static_cast<double>(axes.size()));
     const double radius = shapes.uniform(process.minRadius, process.maxRadius, n, 0);
     std::vector<Vec3d> path;
     for (double x = -margin; x <= window.x + margin; x += 1.5) {

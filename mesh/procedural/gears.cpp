@@ -35,7 +35,7 @@ const std::vector<Row> kRows{
 };
 
 /// Pipes on the ground in front and behind: o ends in a boiler, x a valve, = and | and corners as
-/// their neighbours ask.
+/// their neighbors ask.
 const Plan kPipes({
     "..................",  //
     "..o====x===o......",  //

@@ -25,8 +25,9 @@ std::array<float, 4> bladeColor(double share, double hue) {
 
 }  // namespace
 
-ProcessSample makeGrass(const GrassProcess& process, const Vec3d& extent, std::uint64_t seed) {
-  const Random places(seed, 0x6a51), shapes(seed, 0x6a52);
+ProcessSample makeGrass(const GrassProcess& process, const Vec3d& extent, std::uint64_t seed,
+                        const Progress& progress) {
+  const Random places(seed, stream::kGrassPlaces), shapes(seed, stream::kGrassShapes);
   const double margin = process.length;
   const Vec3d window{process.side * extent.x, process.side * extent.y, 1.35 * process.length};
   ProcessSample sample;
@@ -40,6 +41,7 @@ ProcessSample makeGrass(const GrassProcess& process, const Vec3d& extent, std::u
   const auto roots =
       scatteredPoints(places, window.x + 2 * margin, window.y + 2 * margin, process.spacing);
   for (std::size_t n = 0; n < roots.size(); ++n) {
+    progress.report("growing grass", static_cast<double>(n) / static_cast<double>(roots.size()));
     const double turn = shapes.uniform(0, 2 * std::numbers::pi, n, 0);
     const double tilt = shapes.uniform(0, 0.3, n, 1);
     const Vec3d lean{std::cos(turn), std::sin(turn), 0};

@@ -42,7 +42,7 @@ class Lattice {
   using Foot = std::array<std::uint32_t, kAround>;
   using Feet = std::array<Foot, 6>;  ///< -x, +x, -y, +y, -z, +z
 
-  /// A ball with holes where its rods stand.
+  /// A ball with holes where its rods meet it.
   Feet addBall(const Vec3d& center) {
     std::map<std::array<long, 3>, std::uint32_t> known;  // faces share the points of their edges
     const auto vertex = [&](const Vec3d& d) {
@@ -72,7 +72,7 @@ class Lattice {
 
   void addRod(const Foot& from, const Foot& to) { addBand(from, to, false, kRodMaterial); }
 
-  /// Closes a foot on which no rod stands.
+  /// Closes a foot that has no rod.
   void addCap(const Foot& foot, const Vec3d& middle, bool positiveSide) {
     const auto m = static_cast<std::uint32_t>(mesh_.positions.size());
     mesh_.positions.push_back(middle);
@@ -89,7 +89,7 @@ class Lattice {
     for (int a = 0; a < kAround; ++a) {
       const int b = (a + 1) % kAround;
       const std::uint32_t p = inner[a], q = inner[b], r = outer[b], s = outer[a];
-      // Inner to outer runs away from the axis, so this is anticlockwise on a positive side.
+      // Inner to outer runs away from the axis, so this is counterclockwise on a positive side.
       addTriangle(p, positiveSide ? s : r, positiveSide ? r : s, material);
       addTriangle(p, positiveSide ? r : q, positiveSide ? q : r, material);
     }
@@ -105,8 +105,9 @@ class Lattice {
 
 }  // namespace
 
-ProcessSample makeGrid(const GridProcess& process, const Vec3d& extent, std::uint64_t seed) {
-  const Random random(seed, 0x6f1d);
+ProcessSample makeGrid(const GridProcess& process, const Vec3d& extent, std::uint64_t seed,
+                       const Progress& progress) {
+  const Random random(seed, stream::kGrid);
   ProcessSample sample;
   sample.box.min = {0, 0, 0};
   sample.box.max = extent * (process.cells * process.cell);
@@ -118,7 +119,11 @@ ProcessSample makeGrid(const GridProcess& process, const Vec3d& extent, std::uin
   Lattice lattice(process.rodRadius, process.ballRadius);
   Array3D<Vec3d> centers(size);
   Array3D<Lattice::Feet> feet(size);
+  const auto share = [&](std::size_t n) {
+    return static_cast<double>(n) / static_cast<double>(centers.count());
+  };
   for (std::size_t n = 0; n < centers.count(); ++n) {
+    progress.report("making the grid's balls", 0.5 * share(n));
     const Vec3i ijk = centers.ijk(n);
     const std::uint64_t key = (static_cast<std::uint64_t>(ijk.z) * 4096 + ijk.y) * 4096 + ijk.x;
     Vec3d& p = centers.values()[n];
@@ -129,6 +134,7 @@ ProcessSample makeGrid(const GridProcess& process, const Vec3d& extent, std::uin
     feet.values()[n] = lattice.addBall(p);
   }
   for (std::size_t n = 0; n < centers.count(); ++n) {
+    progress.report("making the grid's rods", 0.5 + 0.5 * share(n));
     const Vec3i ijk = centers.ijk(n);
     for (int axis = 0; axis < 3; ++axis) {
       Vec3i next = ijk, along{};

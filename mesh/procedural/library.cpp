@@ -127,7 +127,7 @@ class Library {
     }
   }
 
-  /// Shelves at each wall beside the cell, a floor on top of them, and a rail towards the room.
+  /// Shelves at each wall beside the cell, a floor on top of them, and a rail toward the room.
   void gallery(int x, int y, unsigned walls) {
     for (int turn = 0; turn < 4; ++turn) {
       const unsigned turned = turnedSides(walls, -turn);

@@ -12,8 +12,10 @@
 
 namespace exemplar {
 
-ProcessSample makeMetal(const MetalProcess& process, const Vec3d& extent, std::uint64_t seed) {
-  const Random places(seed, 0x3e71), shapes(seed, 0x3e72), roughness(seed, 0x3e73);
+ProcessSample makeMetal(const MetalProcess& process, const Vec3d& extent, std::uint64_t seed,
+                        const Progress& progress) {
+  const Random places(seed, stream::kMetalPlaces), shapes(seed, stream::kMetalShapes),
+      roughness(seed, stream::kMetalRoughness);
   const double margin = 2 * process.grain, cell = 0.5;
   const Vec3d window = extent * process.side;
   const int columns = static_cast<int>((window.x + 2 * margin) / cell) + 1;
@@ -23,6 +25,7 @@ ProcessSample makeMetal(const MetalProcess& process, const Vec3d& extent, std::u
 
   std::vector<double> heights(static_cast<std::size_t>(columns) * rows);
   for (int r = 0; r < rows; ++r) {
+    progress.report("shaping grains", static_cast<double>(r) / rows);
     for (int c = 0; c < columns; ++c) {
       const Vec3d p{c * cell, r * cell, 0};
       // Each grain a tilted plane about its own level; the nearest grain counts, with a groove

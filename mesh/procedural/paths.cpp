@@ -35,7 +35,7 @@ constexpr Vec3i kSteps[4] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
 /// stairs in the cell above the slab that they start from.
 struct PathCell {
   unsigned sides = 0;  ///< of a slab
-  int rises = -1;      ///< of stairs: towards kSteps[rises]
+  int rises = -1;      ///< of stairs: toward kSteps[rises]
   char on = ' ';       ///< what stands on it, as in the moves
   int along = 0;       ///< which way it was walked when that was put there: 0 x, 1 y
 };
@@ -120,7 +120,7 @@ class Paths {
 
   void place(const Vec3i& c, const PathCell& cell) {
     if (cell.rises >= 0) return stairs(c, cell.rises);
-    // Towards stairs a slab ends; towards a slab it goes on.
+    // Towards stairs a slab ends; toward a slab it goes on.
     unsigned ends = 0;
     for (int n = 0; n < 4; ++n) {
       const auto next = cells_.find(key(c + kSteps[n]));

@@ -15,7 +15,7 @@
 
 namespace exemplar {
 
-/// The four sides of a cell seen from above, as bits: which neighbours something goes on to.
+/// The four sides of a cell seen from above, as bits: which neighbors something goes on to.
 enum SideBit : unsigned { kEast = 1, kNorth = 2, kWest = 4, kSouth = 8 };
 
 /// Faces of a box, as bits: those to leave out, where the next cell goes on.
@@ -29,8 +29,8 @@ class PieceKit {
   std::uint32_t material(const std::string& name, const std::array<float, 3>& color,
                          float roughness = 0.85f, float metallic = 0, float emission = 0);
 
-  /// What follows is drawn from the lowest corner of a cell, turned `turns` quarters anticlockwise
-  /// about its vertical axis.
+  /// What follows is drawn from the lowest corner of a cell, turned `turns` quarters
+  /// counterclockwise about its vertical axis.
   void at(const Vec3i& cell, int turns = 0);
   /// The same about the vertical axis at (x, y) from the cell's corner.
   void at(const Vec3i& cell, int turns, double x, double y);
@@ -41,7 +41,7 @@ class PieceKit {
   /// A box; `skip`: `FaceBit`s of faces that are not made, as seen before turning.
   void box(const Vec3d& low, const Vec3d& high, std::uint32_t material, unsigned skip = 0);
   /// A convex polygon in the plane across `axis` (its points' coordinates are those of the two axes
-  /// after it in turn, anticlockwise), drawn out from `from` to `to`. `caps`: bit 1: the end at
+  /// after it in turn, counterclockwise), drawn out from `from` to `to`. `caps`: bit 1: the end at
   /// `from`, bit 2: that at `to`.
   void prism(int axis, std::span<const std::array<double, 2>> polygon, double from, double to,
              std::uint32_t material, unsigned caps = 3);
@@ -56,11 +56,11 @@ class PieceKit {
              std::uint32_t material);
   /// A ball of triangles, squashed: `radii` along the axes.
   void ball(const Vec3d& center, const Vec3d& radii, std::uint32_t material, int frequency = 2);
-  /// A polygon with its corners anticlockwise seen from where it faces; convex.
+  /// A polygon with its corners counterclockwise seen from where it faces; convex.
   void face(std::span<const Vec3d> corners, std::uint32_t material);
 
   /// A beam along the cell's middle lines to each side in `sides` (`SideBit`s), `half` wide to each
-  /// side of them, from z0 to z1; open towards the neighbours it goes on to, but for those in
+  /// side of them, from z0 to z1; open toward the neighbors it goes on to, but for those in
   /// `closed`.
   void beams(unsigned sides, double half, double z0, double z1, std::uint32_t material,
              unsigned closed = 0);
@@ -96,7 +96,7 @@ class Plan {
     if (x < 0 || y < 0 || x >= width() || y >= depth()) return '.';
     return rows_[rows_.size() - 1 - y][x];
   }
-  /// The sides (`SideBit`s) on which (x, y) has a neighbour among `kinds`.
+  /// The sides (`SideBit`s) on which (x, y) has a neighbor among `kinds`.
   unsigned sides(int x, int y, const std::string& kinds) const {
     const auto has = [&](int i, int j) { return kinds.find((*this)(i, j)) != std::string::npos; };
     return (has(x + 1, y) ? kEast : 0u) | (has(x, y + 1) ? kNorth : 0u) |
@@ -114,7 +114,7 @@ class Plan {
   std::vector<std::string> rows_;
 };
 
-/// Sides turned by quarters, anticlockwise.
+/// Sides turned by quarters, counterclockwise.
 constexpr unsigned turnedSides(unsigned sides, int turns) {
   const unsigned n = static_cast<unsigned>(turns & 3);
   return ((sides << n) | (sides >> (4 - n))) & 15u;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
@@ -13,7 +14,8 @@ namespace exemplar {
 // The random processes behind the bundled scenes: each makes a window (`box`) of something that
 // goes on beyond it. World units: one is one sample at the scene's own resolution of 64. `extent`
 // multiplies the window's sides (>= 1), `seed` chooses the sample of the process. All are
-// deterministic, every solid in them closed, manifold and oriented outwards.
+// deterministic, every solid in them closed, manifold and oriented outwards. All report to
+// `progress` and throw `Cancelled`.
 
 /// A sample of a process: its solids and the window to look through.
 struct ProcessSample {
@@ -26,13 +28,13 @@ struct ProcessSample {
 /// the row after, none touches another, each a little out of place.
 struct ChainmailProcess {
   int columns = 3, rows = 10;  ///< rings in the window; 1..64, rows even
-  double ringRadius = 8.5;     ///< centre to middle of the wire
+  double ringRadius = 8.5;     ///< center to middle of the wire
   double wireRadius = 1.75;    ///< at most 0.21 ringRadius, beyond which rings would touch
   double tilt = 0.5236;        ///< of rings from the plane, rows alternating; radians, 0.4..0.65
   double jitter = 0.02;        ///< of positions, share of ringRadius, 0..0.02
 };
 ProcessSample makeChainmail(const ChainmailProcess& process, const Vec3d& extent,
-                            std::uint64_t seed);
+                            std::uint64_t seed, const Progress& progress = {});
 
 /// Equal balls dropped into a heap: a random loose packing, settled by gravity; every ball rests on
 /// others and none overlap.
@@ -41,7 +43,8 @@ struct BallsProcess {
   double radius = 6.5;  ///< of a ball, 1..side/2
   int colors = 5;       ///< materials among the balls, 1..5
 };
-ProcessSample makeBalls(const BallsProcess& process, const Vec3d& extent, std::uint64_t seed);
+ProcessSample makeBalls(const BallsProcess& process, const Vec3d& extent, std::uint64_t seed,
+                        const Progress& progress = {});
 
 /// Rods along the three axes through a lattice of balls, the lattice's points moved at random.
 struct GridProcess {
@@ -51,25 +54,28 @@ struct GridProcess {
   double ballRadius = 4.2;  ///< rodRadius..cell/2
   double jitter = 1.2;      ///< deviation of a point along each axis, 0..cell/8
 };
-ProcessSample makeGrid(const GridProcess& process, const Vec3d& extent, std::uint64_t seed);
+ProcessSample makeGrid(const GridProcess& process, const Vec3d& extent, std::uint64_t seed,
+                       const Progress& progress = {});
 
 /// Long fibers, roughly parallel to x, of different thickness, wavy, apart from one another.
 struct FibersProcess {
   double side = 64;     ///< of the window
-  double spacing = 11;  ///< least distance of neighbours' axes, > 2 (maxRadius + waviness)
+  double spacing = 11;  ///< least distance of neighbors' axes, > 2 (maxRadius + waviness)
   double minRadius = 2.2, maxRadius = 3.6;  ///< of a fiber
   double waviness = 1.6;                    ///< amplitude of its sideways motion, 0..spacing/4
 };
-ProcessSample makeFibers(const FibersProcess& process, const Vec3d& extent, std::uint64_t seed);
+ProcessSample makeFibers(const FibersProcess& process, const Vec3d& extent, std::uint64_t seed,
+                         const Progress& progress = {});
 
 /// Rough metal under the microscope: grains of different height and slope, pits between them.
 struct MetalProcess {
   double side = 64;   ///< of the window
-  double grain = 10;  ///< distance of neighbouring grains, 2..side/2
+  double grain = 10;  ///< distance of neighboring grains, 2..side/2
   double relief = 9;  ///< from the lowest pit to the highest grain, about
   double depth = 5;   ///< solid below the lowest pit
 };
-ProcessSample makeMetal(const MetalProcess& process, const Vec3d& extent, std::uint64_t seed);
+ProcessSample makeMetal(const MetalProcess& process, const Vec3d& extent, std::uint64_t seed,
+                        const Progress& progress = {});
 
 /// Hills between winding valley floors, carved by running water: uplift against stream-power
 /// erosion (Braun, Willett: "A very efficient O(n), implicit and parallel method to solve the
@@ -83,7 +89,8 @@ struct TerrainProcess {
   double depth = 5;    ///< solid below the valley floors
   int steps = 60;      ///< of erosion, 1..1000
 };
-ProcessSample makeTerrain(const TerrainProcess& process, const Vec3d& extent, std::uint64_t seed);
+ProcessSample makeTerrain(const TerrainProcess& process, const Vec3d& extent, std::uint64_t seed,
+                          const Progress& progress = {});
 
 /// Curved, tapering blades on a thin sheet of soil.
 struct GrassProcess {
@@ -94,6 +101,7 @@ struct GrassProcess {
   double length = 34;      ///< of a blade, on average
   double soil = 4;         ///< thickness of the soil
 };
-ProcessSample makeGrass(const GrassProcess& process, const Vec3d& extent, std::uint64_t seed);
+ProcessSample makeGrass(const GrassProcess& process, const Vec3d& extent, std::uint64_t seed,
+                        const Progress& progress = {});
 
 }  // namespace exemplar

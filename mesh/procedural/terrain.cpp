@@ -80,7 +80,7 @@ class Landscape {
     }
   }
 
-  /// Averages each cell with its neighbours: soil creeps.
+  /// Averages each cell with its neighbors: soil creeps.
   void smooth(int rounds) {
     std::vector<double> next(height_.size());
     for (int round = 0; round < rounds; ++round) {
@@ -113,7 +113,7 @@ class Landscape {
   }
 
   /// Where each cell's water goes: flooded from the valley floors upwards, so that every pit has a
-  /// way out; then to the steepest of the neighbours flooded earlier.
+  /// way out; then to the steepest of the neighbors flooded earlier.
   void route() {
     using Entry = std::pair<double, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -178,14 +178,16 @@ void paint(TriangleMesh& mesh, double relief) {
 
 }  // namespace
 
-ProcessSample makeTerrain(const TerrainProcess& process, const Vec3d& extent, std::uint64_t seed) {
-  const Random random(seed, 0x7e44);
+ProcessSample makeTerrain(const TerrainProcess& process, const Vec3d& extent, std::uint64_t seed,
+                          const Progress& progress) {
+  const Random random(seed, stream::kTerrain);
   const double cell = 0.5, margin = 20;
   const Vec3d window = extent * process.side;
   const int columns = static_cast<int>((window.x + 2 * margin) / cell) + 1;
   const int rows = static_cast<int>((window.y + 2 * margin) / cell) + 1;
   Landscape land(columns, rows, process.valley / cell, random);
   for (int step = 0; step < process.steps; ++step) {
+    progress.report("eroding", 0.9 * step / process.steps);
     land.erode(0.5, 0.17);
     land.slide(0.9, 1);
   }
@@ -202,6 +204,7 @@ ProcessSample makeTerrain(const TerrainProcess& process, const Vec3d& extent, st
   sample.box = {{0, 0, -process.depth}, {window.x, window.y, 1.1 * process.relief + air}};
   sample.mesh = makeHeightFieldSolid({-margin, -margin, 0}, cell, columns, rows, land.heights(),
                                      -3 * process.depth);
+  progress.report("painting", 0.9);
   paint(sample.mesh, process.relief);
   setMaterial(sample.mesh, {.name = "terrain", .baseColor = {1, 1, 1, 1}, .roughness = 0.9f});
   return sample;

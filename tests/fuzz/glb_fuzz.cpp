@@ -6,8 +6,7 @@
 
 namespace {
 void read(std::string_view bytes) {
-  exemplar::validate(
-      exemplar::parseGlb(bytes, "f.glb", [](const std::string&) { return std::nullopt; }), "f.glb");
+  exemplar::validate(exemplar::parseGltf(bytes, {.name = "f.glb"}), "f.glb");
 }
 }  // namespace
 

@@ -7,9 +7,12 @@
 namespace {
 void read(std::string_view bytes) {
   // The file serves as its own material library, and as a picture where it begins like one.
-  exemplar::validate(
-      exemplar::parseObj(bytes, "f.obj", [&](const std::string&) { return std::string(bytes); }),
-      "f.obj");
+  exemplar::Warnings warnings;
+  const exemplar::MeshSource source{
+      .name = "f.obj",
+      .sibling = [&](const std::string&) { return std::string(bytes); },
+      .warnings = &warnings};
+  exemplar::validate(exemplar::parseObj(bytes, source), "f.obj");
 }
 }  // namespace
 

@@ -6,7 +6,7 @@
 
 namespace {
 void read(std::string_view bytes) {
-  exemplar::validate(exemplar::parseOff(bytes, "f.off"), "f.off");
+  exemplar::validate(exemplar::parseOff(bytes, {.name = "f.off"}), "f.off");
 }
 }  // namespace
 

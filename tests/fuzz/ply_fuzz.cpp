@@ -6,7 +6,7 @@
 
 namespace {
 void read(std::string_view bytes) {
-  exemplar::validate(exemplar::parsePly(bytes, "f.ply"), "f.ply");
+  exemplar::validate(exemplar::parsePly(bytes, {.name = "f.ply"}), "f.ply");
 }
 }  // namespace
 

@@ -6,7 +6,7 @@
 
 namespace {
 void read(std::string_view bytes) {
-  exemplar::validate(exemplar::parseStl(bytes, "f.stl"), "f.stl");
+  exemplar::validate(exemplar::parseStl(bytes, {.name = "f.stl"}), "f.stl");
 }
 }  // namespace
 

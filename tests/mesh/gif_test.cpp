@@ -107,7 +107,7 @@ Image8 randomImage(int width, int height, int colors, std::uint64_t seed) {
   const Random random(seed, 0x61f);
   Image8 image{width, height, 3, {}};
   for (int n = 0; n < width * height; ++n) {
-    // Runs of one colour, as pictures have them.
+    // Runs of one color, as pictures have them.
     const std::uint32_t color = random.below(colors, n / (1 + random.below(4, n, 1)));
     for (int c = 0; c < 3; ++c) {
       image.pixels.push_back(static_cast<std::uint8_t>(color * (53 + 31 * c)));
@@ -116,7 +116,7 @@ Image8 randomImage(int width, int height, int colors, std::uint64_t seed) {
   return image;
 }
 
-TEST(Gif, FewColoursComeBackExactly) {
+TEST(Gif, FewColorsComeBackExactly) {
   for (const int colors : {1, 2, 3, 5, 17, 250}) {
     const std::vector<Image8> images{randomImage(61, 47, colors, 1),
                                      randomImage(61, 47, colors, 2)};
@@ -134,7 +134,7 @@ TEST(Gif, FewColoursComeBackExactly) {
 }
 
 TEST(Gif, LargePicturesFillTheTableOfCodes) {
-  // More than 4096 codes: the table begins anew, several times.
+  // More than 4096 codes: the table is reset several times.
   const std::vector<Image8> images{randomImage(400, 300, 200, 3)};
   const Decoded decoded = decode(formatGif(images));
   for (std::size_t p = 0; p < decoded.frames[0].size(); ++p) {
@@ -142,7 +142,7 @@ TEST(Gif, LargePicturesFillTheTableOfCodes) {
   }
 }
 
-TEST(Gif, ManyColoursComeBackNearly) {
+TEST(Gif, ManyColorsComeBackNearly) {
   Image8 ramp{64, 64, 3, {}};
   for (int n = 0; n < 64 * 64; ++n) {
     for (const int c : {4 * (n % 64), 4 * (n / 64), 128}) {

@@ -441,7 +441,7 @@ TEST(Glb, InstancesAreMeshesThatNodesShare) {
   EXPECT_EQ(model.nodes[1].translation, (std::vector<double>{0, 0, -20}));  // y is up in the file
   EXPECT_EQ(model.images.size(), 1u);
   EXPECT_EQ(model.materials.size(), 2u);
-  // Read back, all of it is in its place, with its colours.
+  // Read back, all of it is in its place, with its colors.
   const TriangleMesh back = parse(".glb", bytes);
   EXPECT_EQ(back.triangles.size(), 4u + 4u + (last - 4));
   EXPECT_EQ(back.materials[0].name, full.materials[0].name);

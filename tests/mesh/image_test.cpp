@@ -109,7 +109,7 @@ TEST(WritePng, GivesTheSameBytesEachTimeAndNoFileWhereThereIsNoFolder) {
   EXPECT_THROW(writePng(folder / "none/a.png", image), InputError);
 }
 
-TEST(DecodeImage, UnpacksOneBitGrey) {
+TEST(DecodeImage, UnpacksOneBitGray) {
   const Image8 image = decodeImage(fromHex(kGrayOneBit), "it");
   EXPECT_EQ(image.channels, 1);
   EXPECT_THAT(image.pixels, ElementsAre(255, 0, 255, 255, 0, 0, 255, 0, 0, 255));
@@ -143,7 +143,7 @@ TEST(EncodeJpeg, IsReadAgainAsTheSamePicture) {
   ASSERT_EQ(again.width, 40);
   ASSERT_EQ(again.height, 30);
   ASSERT_EQ(again.channels, 3);
-  // A smooth picture at quality 95: steps of quantisation are a few greys.
+  // A smooth picture at quality 95: steps of quantization are a few grays.
   for (std::size_t n = 0; n < image.pixels.size(); ++n)
     ASSERT_NEAR(image.pixels[n], again.pixels[n], 8) << n;
   EXPECT_LT(encodeJpeg(image, 30).size(), bytes.size());
@@ -163,7 +163,7 @@ TEST(DecodeImage, ReadsJpegs) {
   EXPECT_EQ(color.channels, 3);
   for (int x = 0; x < 16; ++x) {
     const int left[] = {250, 10, 20}, right[] = {20, 30, 240};
-    // At quality 60 a whole block of one colour is off by a few levels.
+    // At quality 60 a whole block of one color is off by a few levels.
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(color.at(x, 9)[c], x < 8 ? left[c] : right[c], 8);
   }
 }

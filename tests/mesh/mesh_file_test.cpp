@@ -46,7 +46,7 @@ std::string complaint(const std::string& ending, const std::string& bytes) {
   return "";
 }
 
-/// Not inline: GCC 12 takes a pair of neighbouring roundings to float and back for no change.
+/// Not inline: GCC 12 takes a pair of neighboring roundings to float and back for no change.
 [[gnu::noinline]] double roundedToFloat(double x) { return static_cast<float>(x); }
 
 /// The corners of all triangles as coordinates, rounded to float where `asFloat`.
@@ -127,15 +127,15 @@ TEST(MeshFile, ObjAndGlbAreYUpAndTheOthersZUp) {
 }
 
 TEST(MeshFile, OnlyKnownEndingsAreMeshFiles) {
-  for (const char* name : {"a.obj", "a.PLY", "a.Stl", "b/c.off", "x.glb"})
+  for (const char* name : {"a.obj", "a.PLY", "a.Stl", "b/c.off", "x.glb", "y.gltf"})
     EXPECT_TRUE(isMeshFile(name));
-  for (const char* name : {"a", "a.gltf", "obj", ".obj", "a.obj.gz"})
+  for (const char* name : {"a", "a.gltf.gz", "obj", ".obj", "a.obj.gz"})
     EXPECT_FALSE(isMeshFile(name));
   try {
     readMesh("a.fbx");
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("use .obj, .ply, .stl, .off or .glb"));
+    EXPECT_THAT(e.what(), HasSubstr("use .obj, .ply, .stl, .off, .glb or .gltf"));
   }
 }
 
@@ -177,7 +177,7 @@ TEST(MeshFile, AllButTexturesSurvivesPly) {
   EXPECT_EQ(read.materials, full.materials);
 }
 
-TEST(MeshFile, OffKeepsVertexColoursAndTheColoursOfMaterials) {
+TEST(MeshFile, OffKeepsVertexColorsAndTheColorsOfMaterials) {
   const TriangleMesh full = fullMesh(), read = writtenAndRead(full, ".off");
   EXPECT_EQ(read.positions, full.positions);
   EXPECT_EQ(read.triangles, full.triangles);
@@ -189,7 +189,7 @@ TEST(MeshFile, OffKeepsVertexColoursAndTheColoursOfMaterials) {
   }
 }
 
-TEST(MeshFile, ColoursThatEightBitsCannotHoldSurviveObjAndGlbExactly) {
+TEST(MeshFile, ColorsThatEightBitsCannotHoldSurviveObjAndGlbExactly) {
   TriangleMesh torus = plainTorus();
   for (std::size_t v = 0; v < torus.positions.size(); ++v) {
     const float c = static_cast<float>(v) / static_cast<float>(torus.positions.size());
@@ -199,17 +199,17 @@ TEST(MeshFile, ColoursThatEightBitsCannotHoldSurviveObjAndGlbExactly) {
   EXPECT_EQ(writtenAndRead(torus, ".glb").colors, torus.colors);
 }
 
-TEST(MeshFile, ObjColoursAreSrgb) {
+TEST(MeshFile, ObjColorsAreSrgb) {
   const TriangleMesh read =
       parse(".obj", "v 0 0 0 0.5 1 0\nv 1 0 0\nv 0 1 0 0 0 0 0.25\nf 1 2 3\n");
   // IEC 61966-2-1: sRGB 0.5 is linear 0.2140.
   EXPECT_NEAR(read.colors[0][0], 0.21404, 1e-5);
   EXPECT_EQ(read.colors[0][1], 1);
-  EXPECT_EQ(read.colors[1], (std::array<float, 4>{1, 1, 1, 1})) << "no colour is white";
+  EXPECT_EQ(read.colors[1], (std::array<float, 4>{1, 1, 1, 1})) << "no color is white";
   EXPECT_EQ(read.colors[2][3], 0.25f);
 }
 
-TEST(MeshFile, GlbColoursAreLinear) {
+TEST(MeshFile, GlbColorsAreLinear) {
   TriangleMesh mesh = plainTorus();
   mesh.colors.assign(mesh.positions.size(), {0.5f, 0.25f, 1, 1});
   const std::string bytes = format(".glb", mesh);
@@ -219,7 +219,7 @@ TEST(MeshFile, GlbColoursAreLinear) {
   std::string pair(8, '\0');
   std::memcpy(pair.data(), &half, 4);
   std::memcpy(pair.data() + 4, &quarter, 4);
-  EXPECT_NE(bytes.find(pair), std::string::npos) << "the floats stand in the file as they are";
+  EXPECT_NE(bytes.find(pair), std::string::npos) << "the floats are in the file as they are";
 }
 
 TEST(MeshFile, AnObjWithTexturesDoesNotOverwriteOtherPictures) {
@@ -315,7 +315,7 @@ TEST(MeshFile, ReadsBigEndianPlyAndTriangleStrips) {
             (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {2, 1, 3}, {1, 0, 3}}));
 }
 
-TEST(MeshFile, FaceColoursOfPlyBecomeMaterials) {
+TEST(MeshFile, FaceColorsOfPlyBecomeMaterials) {
   const TriangleMesh mesh = parse(".ply",
                                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty float "
                                   "x\nproperty float y\nproperty float z\n"
@@ -360,7 +360,7 @@ TEST(MeshFile, ReadsWhatOtherProgramsWriteAsOff) {
                                   "OFF\n3 1 0\n0 0 0 0 0 1 0.5 0 0 1 0 0\n1 0 0 0 0 1 0 1 0 1 1 "
                                   "0\n0 1 0 0 0 1 0 0 1 1 1 1\n3 0 1 2\n");
   EXPECT_EQ(rich.uvs[0][2], (Vec2f{1, 1}));
-  EXPECT_NEAR(rich.colors[0][0], 0.2159, 1e-4) << "colours in 0..1, in 8 bits";
+  EXPECT_NEAR(rich.colors[0][0], 0.2159, 1e-4) << "colors in 0..1, in 8 bits";
 }
 
 TEST(MeshFile, MalformedTextNamesTheLine) {
@@ -387,7 +387,7 @@ TEST(MeshFile, MalformedTextNamesTheLine) {
       {".ply", "hello\n", "f.ply:1: not a PLY file"},
       {".ply", "ply\nformat binary 1.0\n", "f.ply:2: 'binary' is not a PLY format"},
       {".ply", "ply\nelement vertex -1\n", "f.ply:2: an element's count should not be negative"},
-      {".ply", "ply\nproperty float x\n", "f.ply:2: a property stands before"},
+      {".ply", "ply\nproperty float x\n", "f.ply:2: a property comes before"},
       {".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n",
        "no x, y and z"},
       {".ply",

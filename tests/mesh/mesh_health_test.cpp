@@ -72,7 +72,7 @@ TEST(MeshHealth, UnjoinedVerticesAreOpen) {
   const MeshHealth h = healthOf(soup);
   EXPECT_EQ(h.boundaryEdges, 3 * h.triangles);
   EXPECT_EQ(h.components, h.triangles);
-  EXPECT_EQ(h.selfIntersections, 0) << "neighbours only touch";
+  EXPECT_EQ(h.selfIntersections, 0) << "neighbors only touch";
 }
 
 TEST(MeshHealth, SeesAFin) {
@@ -150,7 +150,7 @@ TEST(MeshHealth, SeesOneCrossingPair) {
   EXPECT_EQ(healthOf(mesh).selfIntersections, 1);
   EXPECT_EQ(meshHealth(mesh).selfIntersections, 0) << "not asked for";
   for (int v = 3; v < 6; ++v) mesh.positions[v].z += 1;
-  EXPECT_EQ(healthOf(mesh).selfIntersections, 0) << "it stands on the other one now";
+  EXPECT_EQ(healthOf(mesh).selfIntersections, 0) << "it rests on the other one now";
 }
 
 TEST(MeshHealth, SeesBoxesThatOverlapOnTheirDiagonals) {

@@ -99,7 +99,8 @@ TriangleMesh plainTorus(int ring, int tube) {
   return mesh;
 }
 
-TriangleMesh parse(const std::string& ending, std::string_view bytes, bool withSiblings) {
+TriangleMesh parse(const std::string& ending, std::string_view bytes, bool withSiblings,
+                   Warnings* warnings) {
   const SiblingFile sibling = [&](const std::string& name) -> std::optional<std::string> {
     if (!withSiblings) return std::nullopt;
     if (name == "m.mtl") {
@@ -109,11 +110,12 @@ TriangleMesh parse(const std::string& ending, std::string_view bytes, bool withS
     if (name == "t.png") return tinyPng();
     return std::nullopt;
   };
-  TriangleMesh mesh = ending == ".obj"   ? parseObj(bytes, "f.obj", sibling)
-                      : ending == ".ply" ? parsePly(bytes, "f.ply")
-                      : ending == ".stl" ? parseStl(bytes, "f.stl")
-                      : ending == ".off" ? parseOff(bytes, "f.off")
-                                         : parseGlb(bytes, "f.glb", sibling);
+  const MeshSource source{.name = "f" + ending, .sibling = sibling, .warnings = warnings};
+  TriangleMesh mesh = ending == ".obj"   ? parseObj(bytes, source)
+                      : ending == ".ply" ? parsePly(bytes, source)
+                      : ending == ".stl" ? parseStl(bytes, source)
+                      : ending == ".off" ? parseOff(bytes, source)
+                                         : parseGltf(bytes, source);
   validate(mesh, "f" + ending);
   return mesh;
 }
@@ -146,7 +148,7 @@ std::string richGlb() {
   for (const float f : {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}) number(f);  // positions, 48 bytes
   for (const int i : {0, 1, 2, 3}) binary += static_cast<char>(i);       // indices, 4 bytes
   for (const int c : {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 9, 9, 9, 128}) {
-    binary += static_cast<char>(c);  // colours, 16 bytes
+    binary += static_cast<char>(c);  // colors, 16 bytes
   }
   for (const float f : {0, 0, 1, 0, 0, 1, 1, 1}) number(f);  // texture coordinates, 32 bytes
   binary += '\2';                                            // a sparse index, padded to 4 bytes

@@ -31,16 +31,16 @@ class TestFolder {
   std::filesystem::path path_;
 };
 
-/// The bytes that hexadecimal digits stand for.
+/// The bytes that hexadecimal digits encode.
 std::string fromHex(std::string_view digits);
 
 /// A PNG of one red pixel.
 const std::string& tinyPng();
-/// A grey JPEG of 8 x 8 pixels with value 200.
+/// A gray JPEG of 8 x 8 pixels with value 200.
 const std::string& tinyJpeg();
 
 /// A box, each face cut into two triangles, with everything a mesh can have: two materials, one of
-/// them with a texture, colours that 8-bit sRGB can hold, and texture coordinates that differ
+/// them with a texture, colors that 8-bit sRGB can hold, and texture coordinates that differ
 /// between the faces at a vertex. Its triangles are sorted by material, as `.glb` keeps them.
 TriangleMesh fullMesh();
 
@@ -50,7 +50,8 @@ TriangleMesh plainTorus(int ring = 16, int tube = 8);
 
 /// Reads bytes as a file with this ending and checks what comes out, as `readMesh` does. Files
 /// beside it: "m.mtl" and "t.png" where `withSiblings`.
-TriangleMesh parse(const std::string& ending, std::string_view bytes, bool withSiblings = true);
+TriangleMesh parse(const std::string& ending, std::string_view bytes, bool withSiblings = true,
+                   Warnings* warnings = nullptr);
 
 /// `mesh` as the bytes of a file with this ending.
 std::string format(const std::string& ending, const TriangleMesh& mesh);

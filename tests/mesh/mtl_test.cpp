@@ -61,7 +61,7 @@ TEST(Mtl, NamesTheLineOfWhatIsWrong) {
     parseMtl("newmtl a\n\nKd 1 red 0\n", "f.mtl");
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("f.mtl:3: the diffuse colour should be a number, not 'red'"));
+    EXPECT_THAT(e.what(), HasSubstr("f.mtl:3: the diffuse color should be a number, not 'red'"));
   }
 }
 

@@ -48,7 +48,7 @@ Point randomPoint(const Random& random, std::uint64_t cell, std::int64_t range) 
   return p;
 }
 
-TEST(Orientation, IsPositiveWhereTheTriangleRunsAnticlockwise) {
+TEST(Orientation, IsPositiveWhereTheTriangleRunsCounterclockwise) {
   const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
   EXPECT_EQ(orientation(a, b, c, {0.2, 0.2, 1}), 1);
   EXPECT_EQ(orientation(a, b, c, {0.2, 0.2, -1}), -1);
@@ -165,12 +165,12 @@ TEST(TrianglesCross, TouchingAndCoplanarTrianglesDoNot) {
   const Vec3d standing[3] = {{1, 1, 0}, {2, 1, 0}, {1, 1, 3}};        // an edge on the floor
   const Vec3d onTip[3] = {{1, 1, 0}, {2, 1, 3}, {1, 2, 3}};           // a corner on the floor
   const Vec3d flat[3] = {{1, 1, 0}, {5, 1, 0}, {1, 5, 0}};            // overlaps in the plane
-  const Vec3d neighbour[3] = {{4, 0, 0}, {0, 0, 0}, {0, -4, 1}};      // along an edge
+  const Vec3d neighbor[3] = {{4, 0, 0}, {0, 0, 0}, {0, -4, 1}};       // along an edge
   const Vec3d sunk[3] = {{1, 1, -0.001}, {2, 1, -0.001}, {1, 1, 3}};  // through the floor
   EXPECT_FALSE(trianglesCross(floor, standing));
   EXPECT_FALSE(trianglesCross(floor, onTip));
   EXPECT_FALSE(trianglesCross(floor, flat));
-  EXPECT_FALSE(trianglesCross(floor, neighbour));
+  EXPECT_FALSE(trianglesCross(floor, neighbor));
   EXPECT_FALSE(trianglesCross(floor, floor));
   EXPECT_TRUE(trianglesCross(floor, sunk));
 }

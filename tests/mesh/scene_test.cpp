@@ -218,7 +218,7 @@ TEST(Balls, RestOnOneAnotherWithoutOverlap) {
     touching += contacts >= 3;
   }
   // A random packing: between the loosest that stands (0.52) and the densest (0.64). The window's
-  // border moves the count of centres by a few of about 140.
+  // border moves the count of centers by a few of about 140.
   const double share = inner * 4.18879 * std::pow(radius, 3) / std::pow(process.side, 3);
   EXPECT_GT(share, 0.5);
   EXPECT_LT(share, 0.66);

@@ -45,12 +45,12 @@ TEST(Validate, RefusesEachDefectByName) {
   EXPECT_THAT(broken([&](auto& m) { m.positions[2].x = -infinity; }), HasSubstr("vertex 2"));
   EXPECT_THAT(broken([](auto& m) { m.positions[2].x = -1e15; }), HasSubstr("1e15"));
   EXPECT_THAT(broken([](auto& m) { m.triangles[0][2] = 3; }), HasSubstr("names vertex 3 of 3"));
-  EXPECT_THAT(broken([](auto& m) { m.colors.resize(2); }), HasSubstr("2 colours for 3 vertices"));
+  EXPECT_THAT(broken([](auto& m) { m.colors.resize(2); }), HasSubstr("2 colors for 3 vertices"));
   EXPECT_THAT(broken([&](auto& m) {
                 m.colors.resize(3);
                 m.colors[2][3] = static_cast<float>(infinity);
               }),
-              HasSubstr("colour"));
+              HasSubstr("color"));
   EXPECT_THAT(broken([](auto& m) { m.uvs.resize(2); }), HasSubstr("for 1 triangles"));
   EXPECT_THAT(broken([](auto& m) { m.uvs = {{{{0, 0}, {0, NAN}, {0, 0}}}}; }), HasSubstr("NaN"));
   EXPECT_THAT(broken([](auto& m) { m.triangleMaterials = {0}; }),

@@ -1,0 +1,101 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "core/text.h"
+
+#include <charconv>
+#include <cstdint>
+
+namespace exemplar {
+namespace {
+
+enum class Encoding { Bytes, Utf16Little, Utf16Big };
+
+/// How the text is stored; `mark` receives the length of its byte-order mark.
+Encoding encodingOf(std::string_view bytes, std::size_t& mark) {
+  mark = 2;
+  if (bytes.starts_with("\xff\xfe")) return Encoding::Utf16Little;
+  if (bytes.starts_with("\xfe\xff")) return Encoding::Utf16Big;
+  mark = bytes.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  if (mark != 0 || bytes.size() < 8) return Encoding::Bytes;
+  bool little = true, big = true;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const bool zero = bytes[i] == 0;
+    little = little && zero == (i % 2 == 1);
+    big = big && zero == (i % 2 == 0);
+  }
+  return little ? Encoding::Utf16Little : big ? Encoding::Utf16Big : Encoding::Bytes;
+}
+
+void appendUtf8(std::string& text, std::uint32_t c) {
+  const auto byte = [&](std::uint32_t bits) { text += static_cast<char>(bits); };
+  if (c < 0x80) {
+    byte(c);
+  } else if (c < 0x800) {
+    byte(0xc0 | c >> 6);
+    byte(0x80 | (c & 0x3f));
+  } else if (c < 0x10000) {
+    byte(0xe0 | c >> 12);
+    byte(0x80 | (c >> 6 & 0x3f));
+    byte(0x80 | (c & 0x3f));
+  } else {
+    byte(0xf0 | c >> 18);
+    byte(0x80 | (c >> 12 & 0x3f));
+    byte(0x80 | (c >> 6 & 0x3f));
+    byte(0x80 | (c & 0x3f));
+  }
+}
+
+}  // namespace
+
+std::string_view asUtf8(std::string_view bytes, std::string& decoded) {
+  std::size_t mark = 0;
+  const Encoding encoding = encodingOf(bytes, mark);
+  bytes.remove_prefix(mark);
+  if (encoding == Encoding::Bytes) return bytes;
+  const std::size_t low = encoding == Encoding::Utf16Little ? 0 : 1;
+  const auto unit = [&](std::size_t i) {
+    return std::uint32_t{static_cast<unsigned char>(bytes[2 * i + low])} |
+           std::uint32_t{static_cast<unsigned char>(bytes[2 * i + 1 - low])} << 8;
+  };
+  const std::size_t units = bytes.size() / 2;
+  decoded.clear();
+  decoded.reserve(units + units / 8);
+  for (std::size_t i = 0; i < units; ++i) {
+    const std::uint32_t c = unit(i);
+    if (c < 0xd800 || c > 0xdfff) {
+      appendUtf8(decoded, c);
+    } else if (c < 0xdc00 && i + 1 < units && unit(i + 1) >= 0xdc00 && unit(i + 1) <= 0xdfff) {
+      appendUtf8(decoded, 0x10000 + ((c - 0xd800) << 10) + (unit(++i) - 0xdc00));
+    } else {
+      appendUtf8(decoded, 0xfffd);
+    }
+  }
+  return decoded;
+}
+
+std::optional<double> parseNumber(std::string_view word) {
+  if (word.size() > 1 && word.front() == '+') word.remove_prefix(1);
+  const auto whole = [](std::string_view text) -> std::optional<double> {
+    double value = 0;
+    const char* last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, value);
+    return error == std::errc{} && end == last ? std::optional(value) : std::nullopt;
+  };
+  if (const auto value = whole(word)) return value;
+  const std::size_t comma = word.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  std::string pointed(word);
+  pointed[comma] = '.';
+  return whole(pointed);
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+}  // namespace exemplar

@@ -1,0 +1,25 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace exemplar {
+
+/// The text in a file's bytes as UTF-8, without a byte-order mark. UTF-16 of either byte order,
+/// with a mark or without one (every other byte of the first characters is zero), is decoded into
+/// `decoded`, unpaired surrogates as U+FFFD; other bytes are returned as they are.
+std::string_view asUtf8(std::string_view bytes, std::string& decoded);
+
+/// The number that a whole word spells: with a sign, an exponent, a decimal point or a decimal
+/// comma (as programs write it whose author forgot the locale), "nan" or "inf"; nothing where it is
+/// none or is out of a double's range. The same in every locale.
+std::optional<double> parseNumber(std::string_view word);
+
+/// ASCII letters made lower-case; other bytes stay, whatever the locale.
+std::string lowerCase(std::string_view text);
+
+}  // namespace exemplar
