@@ -46,6 +46,7 @@ Command addSceneCommand(CLI::App& app);
 Command addVoxelizeCommand(CLI::App& app);
 Command addInfoCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
+Command addEnginesCommand(CLI::App& app);
 
 /// Synthesis that could not be completed: exit status 3.
 class Unfinished : public std::runtime_error {

@@ -56,9 +56,9 @@ int main(int argc, char** argv) {
 
   using namespace exemplar;
   const std::vector<Command> commands{
-      addSynthCommand(app),    addSdfCommand(app),     addMeshCommand(app),
-      addRenderCommand(app),   addMeasureCommand(app), addSceneCommand(app),
-      addVoxelizeCommand(app), addInfoCommand(app),    addCompareCommand(app)};
+      addSynthCommand(app),   addSdfCommand(app),    addMeshCommand(app),     addRenderCommand(app),
+      addMeasureCommand(app), addSceneCommand(app),  addVoxelizeCommand(app), addInfoCommand(app),
+      addCompareCommand(app), addEnginesCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "engine/engines.h"

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "engine/words.h"

@@ -193,14 +193,24 @@ Vec3d readLengths(const Setting& setting, const std::string& text) {
 
 std::string spelled(std::string_view message,
                     const std::function<std::string(std::string_view)>& spell) {
+  const auto isKey = [](std::string_view word) {
+    return !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == word.npos;
+  };
   std::string text;
   while (!message.empty()) {
     const std::size_t open = message.find('`');
-    const std::size_t close = open == std::string_view::npos ? open : message.find('`', open + 1);
-    if (close == std::string_view::npos) break;
+    const std::size_t close = open == message.npos ? open : message.find('`', open + 1);
+    if (close == message.npos) break;
+    const std::string_view word = message.substr(open + 1, close - open - 1);
     text += message.substr(0, open);
-    text += spell(message.substr(open + 1, close - open - 1));
-    message.remove_prefix(close + 1);
+    if (isKey(word)) {
+      text += spell(word);
+      message.remove_prefix(close + 1);
+    } else {
+      // The second backtick may begin a name.
+      text += message.substr(open, close - open);
+      message.remove_prefix(close);
+    }
   }
   text += message;
   return text;

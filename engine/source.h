@@ -8,9 +8,9 @@
 #include <string>
 #include <variant>
 
+#include "core/axes.h"
 #include "mesh/mesh_file.h"
 #include "mesh/triangle_mesh.h"
-#include "core/axes.h"
 #include "sdf/distance_field.h"
 #include "sdf/height_map.h"
 #include "voxelize/label_grid.h"

@@ -18,23 +18,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A room (its folder) and the rooms that it may include beside itself. `synth/geometry` and its
-/// like are rooms of their own.
-const std::map<std::string, std::set<std::string>> kMayInclude{
-    {"core", {}},
-    {"mesh", {"core"}},
-    {"sdf", {"core", "mesh"}},
-    {"voxelize", {"core", "mesh", "sdf"}},
-    {"search", {"core"}},
-    {"synth/geometry", {"core", "sdf", "search"}},
-    {"synth/model", {"core", "voxelize"}},
-    {"synth/continuous", {"core", "mesh"}},
-    {"synth/layered", {"core", "search"}},
-    {"reconstruct", {"core", "mesh", "sdf"}},
-    {"measure", {"core", "mesh", "sdf", "voxelize"}},
-    {"preview", {"core", "mesh"}},
-    {"report", {"core", "mesh", "sdf", "reconstruct", "measure", "preview"}},
-};
+/// A room (its folder) and the rooms that it may include beside itself, as docs/architecture.md
+/// says. `synth/geometry` and its like are rooms of their own.
+using Rooms = std::map<std::string, std::set<std::string>>;
+
+/// The rows "| `room` | what | may include |" of a table.
+Rooms readRooms(std::istream& text) {
+  static const std::regex row(R"re(^\| `([a-z/]+)` \|[^|]*\| ([a-z/, –]+) \|$)re");
+  Rooms rooms;
+  for (std::string line; std::getline(text, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, row)) continue;
+    std::set<std::string>& may = rooms[match[1]];
+    std::istringstream names(match[2]);
+    for (std::string name; std::getline(names >> std::ws, name, ',');)
+      if (name != "–") may.insert(name);
+  }
+  return rooms;
+}
+
+const Rooms kMayInclude = [] {
+  std::ifstream text(fs::path(EXEMPLAR_SOURCE_DIR) / "docs/architecture.md");
+  return readRooms(text);
+}();
 
 std::string roomOf(const std::string& path) {
   for (const auto& [room, allowed] : kMayInclude) {
@@ -73,6 +79,36 @@ TEST(IncludeDirections, PointDownOnly) {
     }
   }
   EXPECT_GT(files, 10);
+}
+
+TEST(IncludeDirections, EveryFolderOfSourcesIsARoom) {
+  // A room that the table does not name would be checked by nobody.
+  for (const auto& entry : fs::directory_iterator(EXEMPLAR_SOURCE_DIR)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_directory() || name[0] == '.' || name == "build" || name == "tests" ||
+        name == "synth")
+      continue;
+    bool sources = false;
+    for (const auto& file : fs::directory_iterator(entry.path()))
+      sources = sources || file.path().extension() == ".cpp";
+    EXPECT_EQ(sources, kMayInclude.contains(name)) << name;
+  }
+  EXPECT_TRUE(kMayInclude.contains("synth/geometry") && kMayInclude.contains("synth/model"));
+}
+
+TEST(IncludeDirections, TheTableHasNoCircle) {
+  // Each row names rooms of rows above it.
+  std::ifstream text(fs::path(EXEMPLAR_SOURCE_DIR) / "docs/architecture.md");
+  std::set<std::string> above;
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream one(line);
+    for (const auto& [room, may] : readRooms(one)) {
+      for (const std::string& other : may)
+        EXPECT_TRUE(above.contains(other)) << room << " " << other;
+      above.insert(room);
+    }
+  }
+  EXPECT_EQ(above.size(), kMayInclude.size());
 }
 
 TEST(IncludeDirections, AForbiddenIncludeIsFound) {

@@ -1,0 +1,257 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "engine/engine.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <set>
+
+#include "core/error.h"
+#include "engine/comparison.h"
+#include "engine/engines.h"
+#include "engine/measured.h"
+#include "engine/realize.h"
+#include "tests/engine/examples.h"
+#include "voxelize/violations.h"
+
+namespace exemplar {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+Result runOn(const Engine& engine, const Example& example, const Request& request) {
+  return engine.run({&example, 1}, request);
+}
+
+Example exampleFor(const Engine& engine) {
+  return readExample(engine.form() == Form::Field ? Source::of(bumps()) : Source::of(rings()));
+}
+
+/// A small request that an engine answers quickly.
+Request smallRequest(const Engine& engine, std::uint64_t seed = 0) {
+  Request request;
+  request.extent.size = engine.form() == Form::Field ? Vec3i{36, 30, 12} : Vec3i{14, 12, 1};
+  request.seed = seed;
+  if (engine.name() == "blocks") request.settings = {{"block", "8"}};
+  return request;
+}
+
+TEST(Engines, AreFoundByNameAndByWhatTheExampleIs) {
+  std::set<std::string_view> names;
+  for (const Engine* engine : engines()) {
+    EXPECT_TRUE(names.insert(engine->name()).second);
+    EXPECT_EQ(&engineNamed(engine->name()), engine);
+  }
+  EXPECT_EQ(engineFor(Source::of(rings())).name(), "model");
+  EXPECT_EQ(engineFor(Source::of(boxes())).name(), "geometry");
+  EXPECT_EQ(engineFor("castle.png").name(), "geometry");
+  EXPECT_THAT(
+      [] { engineNamed("best"); },
+      ThrowsMessage<InputError>(HasSubstr("expected geometry, quilting, voting, blocks or model")));
+}
+
+TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
+  for (const Engine* engine : engines()) {
+    SCOPED_TRACE(engine->name());
+    const Example example = exampleFor(*engine);
+    const Request request = smallRequest(*engine);
+    const Result result = runOn(*engine, example, request);
+    ASSERT_EQ(result.outcome, Outcome::Complete) << result.why;
+    EXPECT_EQ(result.engine, engine->name());
+    ASSERT_EQ(result.origins.size(), *request.extent.size);
+    EXPECT_EQ(engine->extentOf({&example, 1}, request), *request.extent.size);
+    for (std::size_t s = 0; s < result.origins.count(); ++s) {
+      const Vec3i from = result.origins.values()[s].cell();
+      if (engine->form() == Form::Field) {
+        ASSERT_EQ(result.field().values.values()[s] < 0, example.field().values[from] < 0);
+      } else {
+        ASSERT_EQ(result.labels().cells.values()[s], example.labels().cells[from]);
+      }
+    }
+    const Surface surface = realize(result, {&example, 1});
+    EXPECT_TRUE(surface.health.closed());
+    EXPECT_EQ(measure(result, {&example, 1}, &surface.mesh).has_value(),
+              engine->form() == Form::Field);
+  }
+}
+
+TEST(Engines, GiveTheSameBytesAtOneAndEightThreads) {
+  for (const Engine* engine : engines()) {
+    SCOPED_TRACE(engine->name());
+    const Example example = exampleFor(*engine);
+    Result one, eight;
+    tbb::task_arena(1).execute([&] { one = runOn(*engine, example, smallRequest(*engine, 5)); });
+    tbb::task_arena(8).execute([&] { eight = runOn(*engine, example, smallRequest(*engine, 5)); });
+    EXPECT_EQ(one.origins, eight.origins);
+    if (engine->form() == Form::Field) {
+      EXPECT_EQ(one.field().values, eight.field().values);
+    } else {
+      EXPECT_EQ(one.labels().cells, eight.labels().cells);
+    }
+  }
+}
+
+TEST(Engines, WhatAnEngineDoesNotHaveIsRefusedNamingThoseThatDo) {
+  const Example example = readExample(Source::of(bumps()));
+  Request request = smallRequest(geometryEngine());
+  request.settings = {{"seeding", "masked"}};
+  EXPECT_THAT([&] { runOn(geometryEngine(), example, request); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("`seeding`: the engine geometry has no such setting; blocks has")));
+  request.settings = {{"patch", "99"}};
+  EXPECT_THAT([&] { runOn(geometryEngine(), example, request); },
+              ThrowsMessage<InputError>(HasSubstr("`patch` 99: expected 3 to 15")));
+  request.settings = {};
+  request.periodic = {true, false, false};
+  EXPECT_THAT([&] { runOn(blocksEngine(), example, request); },
+              ThrowsMessage<InputError>(HasSubstr(
+                  "the engine blocks has no such setting; geometry, quilting, voting and model")));
+  EXPECT_THAT(
+      [] {
+        checkSettings(modelEngine(), {{"unheard-of", "1"}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("no engine has")));
+  EXPECT_THAT(
+      [] {
+        checkSettings(modelEngine(), {{"rounds", "1"}, {"rounds", "2"}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("given more than once")));
+  EXPECT_NO_THROW(checkSettings(modelEngine(), {{"weight", "1=2"}, {"weight", "3=2"}}));
+}
+
+TEST(Engines, RefuseExamplesOfTheWrongFormAndNumber) {
+  const Example labels = readExample(Source::of(rings())), field = readExample(Source::of(bumps()));
+  EXPECT_THAT([&] { runOn(geometryEngine(), labels, {}); },
+              ThrowsMessage<InputError>(HasSubstr("does not take this kind of example")));
+  const Example two[] = {field, field};
+  EXPECT_THAT([&] { blocksEngine().run(two, smallRequest(blocksEngine())); },
+              ThrowsMessage<InputError>(HasSubstr("takes one example, not 2")));
+}
+
+TEST(Engines, CancellationIsAnOutcome) {
+  std::atomic<bool> cancel = true;
+  for (const Engine* engine : engines()) {
+    const Example example = exampleFor(*engine);
+    const Result result = engine->run({&example, 1}, smallRequest(*engine), Progress({}, &cancel));
+    EXPECT_EQ(result.outcome, Outcome::Cancelled) << engine->name();
+  }
+}
+
+TEST(Engines, ReportOneMonotoneFraction) {
+  for (const Engine* engine : engines()) {
+    const Example example = exampleFor(*engine);
+    double last = 0;
+    std::set<std::string> stages;
+    engine->run({&example, 1}, smallRequest(*engine),
+                Progress([&](std::string_view stage, double fraction) {
+                  EXPECT_GE(fraction, last) << engine->name() << ", " << stage;
+                  EXPECT_LE(fraction, 1);
+                  last = fraction;
+                  stages.emplace(stage);
+                }));
+    EXPECT_FALSE(stages.empty()) << engine->name();
+  }
+}
+
+TEST(ModelEngine, AnImpossibleRequestNamesThePinsThatExcludeEachOther) {
+  const Example example = readExample(Source::of(rings()));
+  Request request = smallRequest(modelEngine());
+  request.decided.pins = {{{1, 1, 0}, "0"}, {{4, 4, 0}, "corner"}, {{5, 4, 0}, "corner"}};
+  const Result result = runOn(modelEngine(), example, request);
+  ASSERT_EQ(result.outcome, Outcome::Impossible);
+  ASSERT_TRUE(result.conflict);
+  EXPECT_EQ(result.conflict->pins, (std::vector<int>{1, 2}));
+  EXPECT_THAT(result.why, HasSubstr("impossible"));
+}
+
+TEST(ModelEngine, KeepsTheExamplesAdjacenciesAndPins) {
+  const Example example = readExample(Source::of(rings()));
+  Request request = smallRequest(modelEngine(), 3);
+  request.decided.pins = {{{4, 4, 0}, "corner"}};
+  const Result result = runOn(modelEngine(), example, request);
+  ASSERT_EQ(result.outcome, Outcome::Complete);
+  EXPECT_EQ(result.labels().cells(4, 4, 0), 5);
+  EXPECT_EQ(findViolations(result.labels(), example.labels()).count, 0);
+}
+
+TEST(GeometryEngine, IsQuiltingForAPlainExampleAndVotingForWhatIsKept) {
+  const Example example = readExample(Source::of(bumps()));
+  const auto method = [&](const Request& request) {
+    for (const auto& [key, value] : runOn(geometryEngine(), example, request).statistics)
+      if (key == "method") return std::get<std::string>(value);
+    return std::string();
+  };
+  Request request = smallRequest(geometryEngine());
+  EXPECT_EQ(method(request), "quilting");
+  request.settings = {{"completeness", "0.3"}};
+  EXPECT_EQ(method(request), "voting");
+  request.settings = {};
+  DistanceField half = bumps();
+  for (std::size_t s = 0; s < half.values.count(); ++s)
+    half.values.values()[s] = half.values.ijk(s).x < 12 ? -1.0f : 1.0f;
+  request.decided.keep = Source::of(half);
+  EXPECT_EQ(method(request), "voting");
+}
+
+TEST(GeometryEngine, WhatIsKeptIsTheExamplesToTheBit) {
+  const Example example = readExample(Source::of(bumps()));
+  DistanceField half = bumps();
+  for (std::size_t s = 0; s < half.values.count(); ++s)
+    half.values.values()[s] = half.values.ijk(s).x < 12 ? -1.0f : 1.0f;
+  Request request = smallRequest(geometryEngine());
+  request.decided.keep = Source::of(half);
+  const Result result = runOn(geometryEngine(), example, request);
+  forEachCell({12, 24, 12}, [&](const Vec3i& p) {
+    ASSERT_EQ(result.field().values[p], example.field().values[p]);
+  });
+  half.values = Array3D<float>(half.values.size(), 1.0f);
+  request.decided.keep = Source::of(half);
+  EXPECT_THAT([&] { runOn(geometryEngine(), example, request); },
+              ThrowsMessage<InputError>(HasSubstr("`keep`: no sample of the example is inside")));
+}
+
+TEST(BlocksEngine, EverySearchGivesTheSameResult) {
+  const Example example = readExample(Source::of(bumps()));
+  Request request = smallRequest(blocksEngine(), 2);
+  const Result index = runOn(blocksEngine(), example, request);
+  for (const char* search : {"tree", "scan"}) {
+    request.settings.set("search", search);
+    EXPECT_EQ(runOn(blocksEngine(), example, request).origins, index.origins) << search;
+  }
+}
+
+TEST(WithDetail, MultipliesTheSamplesAndKeepsTheSolid) {
+  const Example coarse = readExample(Source::of(boxes()), {.resolution = 20});
+  Request request;
+  request.extent.scale = Vec3d{1.5, 1, 1};
+  const Result result = runOn(votingEngine(), coarse, request);
+  const std::vector<Example> finer = refined({&coarse, 1}, 2);
+  const Result detailed = withDetail(result, finer, 2);
+  EXPECT_EQ(detailed.field().size(), result.field().size() * 2);
+  EXPECT_EQ(detailed.origins.size(), detailed.field().size());
+  EXPECT_TRUE(realize(detailed, finer).health.closed());
+}
+
+TEST(ParseComparedEngine, TakesTheSettingsThatSynthTakes) {
+  EXPECT_EQ(parseComparedEngine("optimize").engine, &geometryEngine());
+  const ComparedEngine model = parseComparedEngine("model:field-block=12:rounds=2");
+  EXPECT_EQ(model.settings.text("field-block"), "12");
+  for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
+           {"best", "expected geometry"},
+           {"blocks:", "NAME:KEY=VALUE"},
+           {"blocks:patch=7", "the engine blocks has no such setting"},
+           {"blocks:block=x", "'x' is not a number"},
+           {"model:tolerance=1", "is the same for all engines"},
+           {"blocks:seed=1", "is the same for all engines"}}) {
+    EXPECT_THAT([&, &text = text] { parseComparedEngine(text); },
+                ThrowsMessage<InputError>(HasSubstr(says)))
+        << text;
+  }
+}
+
+}  // namespace
+}  // namespace exemplar
