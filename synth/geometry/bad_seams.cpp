@@ -109,7 +109,7 @@ std::int64_t repairSeams(const PyramidLevel& level, const RepairOptions& options
     const NearestNeighborField previous = std::move(field);
     search.start = &previous;
     field = nearestNeighborField({level.source}, {target}, search, progress);
-    if (!field.complete || progress.cancelled()) return many;
+    if (progress.cancelled()) return many;
     target = vote(level, field, size);
     pinTarget(level, options.truncation, target);
   }

@@ -327,7 +327,6 @@ class Optimization {
       search.start = &previous;
       if (std::isfinite(options_.completeness) && coarse) {
         weight = welcome(level_, target_, options_.completeness, search, reverse, progress);
-        if (!reverse.complete) return false;
         search.sourceWeight = &weight;
       }
       if (parts_.back().example > 0 && l > 0) {
@@ -337,7 +336,7 @@ class Optimization {
       }
       field = nearestNeighborField(channels(level_.source, guideSource),
                                    channels(target_, guideTarget), search, progress);
-      if (!field.complete || progress.cancelled()) return false;
+      if (progress.cancelled()) return false;
       matches_ += volume(field.position.size());
       target_ = vote(level_, field, level_.framedTarget());
       pinTarget(level_, air_, target_);
