@@ -1,4 +1,4 @@
-# The libraries exemplar stands on, all from Debian 12's packages (scripts/install.sh names them).
+# The libraries that exemplar is built with, all from Debian 12's packages (scripts/install.sh names them).
 
 include(GNUInstallDirs)
 set(exemplar_libdir ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -14,7 +14,6 @@ endforeach()
 set(CMAKE_MODULE_PATH ${exemplar_own_module_path})
 
 # Compiled in, so that programs that use the installed libraries do without them.
-find_package(TinyGLTF CONFIG REQUIRED)
 find_package(Eigen3 CONFIG REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)

@@ -14,7 +14,7 @@ foreach(part IN LISTS parts)
     continue()
   endif()
   file(READ "${file}" text)
-  # That would end the element that the text stands in.
+  # That would end the element that the text is in.
   string(TOLOWER "${text}" text)
   string(FIND "${text}" "</script" script)
   string(FIND "${text}" "</style" style)

@@ -4,26 +4,35 @@
 #     find_package(exemplar 0.1 REQUIRED)
 #     target_link_libraries(mine PRIVATE exemplar::exemplar)    # or single rooms: exemplar::synth
 #
+# and in its sources #include <exemplar/synth/...>.
+#
 # tests/consumer is such a program.
 
 include(CMakePackageConfigHelpers)
 set(exemplar_package ${CMAKE_INSTALL_LIBDIR}/cmake/exemplar)
 
-get_property(exemplar_rooms GLOBAL PROPERTY EXEMPLAR_ROOMS)
-list(TRANSFORM exemplar_rooms PREPEND exemplar_)
+get_property(exemplar_libraries GLOBAL PROPERTY EXEMPLAR_LIBRARIES)
+list(TRANSFORM exemplar_libraries PREPEND exemplar_)
 add_library(exemplar_all_rooms INTERFACE)
 add_library(exemplar::exemplar ALIAS exemplar_all_rooms)
 set_target_properties(exemplar_all_rooms PROPERTIES EXPORT_NAME exemplar)
-target_link_libraries(exemplar_all_rooms INTERFACE ${exemplar_rooms})
-install(TARGETS exemplar_all_rooms ${exemplar_rooms} EXPORT exemplarTargets
+target_link_libraries(exemplar_all_rooms INTERFACE ${exemplar_libraries})
+install(TARGETS exemplar_all_rooms ${exemplar_libraries} EXPORT exemplarTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT exemplarTargets NAMESPACE exemplar:: DESTINATION ${exemplar_package})
 
-# Headers keep their rooms: they include each other from the root of the house.
-foreach(room core mesh sdf voxelize search synth reconstruct measure preview report)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/exemplar FILES_MATCHING PATTERN "*.h")
+# Headers keep their rooms: <exemplar/sdf/mesh_to_sdf.h>. In the repository they include each other
+# from its root; what is installed says <exemplar/...> there too, and needs nothing but include/.
+foreach(room IN LISTS EXEMPLAR_ROOMS)
+  install(CODE "
+    execute_process(
+      COMMAND \"${CMAKE_COMMAND}\" -DSOURCE=${PROJECT_SOURCE_DIR} -DROOM=${room}
+              \"-DROOMS=${EXEMPLAR_ROOMS}\" -DOUT=${PROJECT_BINARY_DIR}/installed_headers
+              -P ${PROJECT_SOURCE_DIR}/cmake/RewriteIncludes.cmake
+      COMMAND_ERROR_IS_FATAL ANY)")
 endforeach()
+install(DIRECTORY ${PROJECT_BINARY_DIR}/installed_headers/
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/exemplar FILES_MATCHING PATTERN "*.h")
 
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/exemplarConfig.cmake.in

@@ -11,9 +11,10 @@ set(exemplar_packages
   "embree 3.13 CONFIG"
   "OpenMesh CONFIG"
   "hwy CONFIG"
+  "meshoptimizer CONFIG"
   PNG JPEG ZLIB CaDiCaL)
 
-# OpenVDB ships a find module outside CMake's own path, and CaDiCaL's stands beside this file. For
+# OpenVDB ships a find module outside CMake's own path, and CaDiCaL's is beside this file. For
 # these packages only: the other modules in those folders must shadow nothing.
 set(exemplar_module_path ${CMAKE_CURRENT_LIST_DIR} ${exemplar_libdir}/cmake/OpenVDB
   /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB)

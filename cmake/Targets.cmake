@@ -22,7 +22,7 @@ endif()
 # exemplar_library(<room> SOURCES <file>... [LINK <public target>...] [PRIVATE <target>...])
 #
 # Defines the library exemplar_<room> with the alias exemplar::<room>. Headers are included from
-# the repository's root: "core/vec.h".
+# the repository's root: "core/vec.h"; once installed, as <exemplar/core/vec.h>.
 function(exemplar_library room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
   add_library(exemplar_${room} STATIC ${ARG_SOURCES})
@@ -32,13 +32,13 @@ function(exemplar_library room)
     CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${room})
   target_include_directories(exemplar_${room} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/exemplar>)
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   # What is only headers is compiled in: programs that use the installed library do not need it.
   list(TRANSFORM ARG_PRIVATE REPLACE
     "^((nlohmann_json|tomlplusplus|Eigen3)::.+)$" "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(exemplar_${room} PUBLIC ${ARG_LINK}
     PRIVATE $<BUILD_INTERFACE:exemplar_build_options> ${ARG_PRIVATE})
-  set_property(GLOBAL APPEND PROPERTY EXEMPLAR_ROOMS ${room})
+  set_property(GLOBAL APPEND PROPERTY EXEMPLAR_LIBRARIES ${room})
 endfunction()
 
 # exemplar_test(<room> SOURCES <file>... LINK <target>...): one test program for a room.

@@ -4,7 +4,6 @@
 #include "preview/baked_light.h"
 
 #include <embree3/rtcore.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +13,10 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "preview/tracer.h"
 
 namespace exemplar {
 namespace {
@@ -27,7 +28,7 @@ constexpr std::size_t kGrain = 512;  // probes
 /// The mesh in Embree, its box about the origin with a longest side of two units.
 class Occluder {
  public:
-  explicit Occluder(const TriangleMesh& mesh) : device_(rtcNewDevice(nullptr)) {
+  Occluder(const TriangleMesh& mesh, const Progress& progress) : device_(rtcNewDevice(nullptr)) {
     if (!device_) throw std::bad_alloc();
     box_ = boundingBox(mesh);
     const Vec3d size = box_.size();
@@ -54,9 +55,7 @@ class Occluder {
     rtcAttachGeometry(scene_.get(), geometry);
     rtcReleaseGeometry(geometry);
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-    // By one thread, as in `render`: the tree does not depend on the number of cores.
-    tbb::task_arena alone(1);
-    alone.execute([&] { rtcJoinCommitScene(scene_.get()); });
+    commitScene(scene_.get(), progress);
   }
 
   Vec3d scaled(const Vec3d& p) const { return (p - box_.center()) * scale_; }
@@ -91,7 +90,7 @@ class Occluder {
   double scale_ = 1;
 };
 
-/// Two unit vectors that stand upright on `n` and on each other.
+/// Two unit vectors perpendicular to `n` and to each other.
 std::array<Vec3d, 2> across(const Vec3d& n) {
   const Vec3d other = std::abs(n.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
   const Vec3d u = normalized(cross(other, n));
@@ -124,16 +123,17 @@ std::vector<BakedLight> bakeLight(const TriangleMesh& mesh, std::span<const Ligh
       throw InputError("baked light: " + std::to_string(rays) +
                        " rays a point are out of range; 1..4096 is right");
   validate(mesh, "baked light");
-  const Occluder occluder(mesh);
+  progress.report("gathering light", 0);
+  const Occluder occluder(mesh, progress);
   const Vec3d key = keyDirection(options.picture);
   const std::array<Vec3d, 2> besideKey = across(key);
   const double floor = options.picture.ground ? occluder.floor() : -1e300;
   std::vector<BakedLight> light(probes.size());
-  progress.report("gathering light", 0);
+  LoopProgress gathered(progress, "gathering light", probes.size());
   parallelFor(0, probes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    if (progress.cancelled()) return;
-    const Random random(options.seed, 3);
+    const Random random(options.seed, stream::kBakedLight);
     for (std::size_t p = begin; p < end; ++p) {
+      gathered.check();
       Vec3d n = normalized(cast<double>(probes[p].normal));
       if (n == Vec3d{}) n = {0, 0, 1};
       const Vec3d from = occluder.scaled(probes[p].position) + n * kLift;
@@ -163,8 +163,8 @@ std::vector<BakedLight> bakeLight(const TriangleMesh& mesh, std::span<const Ligh
       }
       light[p].key = byteOf(static_cast<double>(lit) / options.keyRays);
     }
+    gathered.advance(end - begin);
   });
-  if (progress.cancelled()) return {};
   return light;
 }
 

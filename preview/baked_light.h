@@ -35,12 +35,12 @@ struct BakeOptions {
 };
 
 /// Light that was gathered beforehand, so that a viewer without a ray tracer can show `mesh` nearly
-/// as a picture of it does: the key light stands where it stood for the picture and does not go
+/// as a picture of it does: the key light is where it was for the picture and does not move
 /// with the viewer. Rays that meet the floor count as half open: it is lit itself.
 ///
 /// The same values at any number of threads (on one kind of machine, as `render`). Some
-/// microseconds a point. Empty where `progress` cancels. Throws `InputError` for numbers of rays
-/// out of range and for a mesh that `validate` refuses.
+/// microseconds a point. Throws `InputError` for numbers of rays out of range and for a mesh that
+/// `validate` refuses, and `Cancelled`.
 std::vector<BakedLight> bakeLight(const TriangleMesh& mesh, std::span<const LightProbe> probes,
                                   const BakeOptions& options = {}, const Progress& progress = {});
 

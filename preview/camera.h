@@ -21,7 +21,7 @@ struct Camera {
   double tanX = 0, tanY = 0;
 };
 
-/// Finds the camera of a given direction that stands as near as shows all points within the
+/// Finds the nearest camera of a given direction that shows all points within the
 /// picture less its margins, with what they take up in its middle. Exact, not iterative.
 class CameraFit {
  public:

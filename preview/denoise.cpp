@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "preview/film.h"
 
@@ -102,16 +103,21 @@ Lights filtered(const Film& film, const std::vector<Lights>& lights, int x, int 
 
 }  // namespace
 
-void denoise(Film& film) {
+void denoise(Film& film, const Progress& progress) {
   const std::size_t count = film.pixels.size();
   std::vector<Lights> lights(count), next(count);
   for (std::size_t p = 0; p < count; ++p)
     for (int n = 0; n < kLightCount; ++n) lights[p][n] = film.pixels[p].*kLights[n];
+  LoopProgress rows(progress, "filtering the picture",
+                    static_cast<std::size_t>(kPasses) * film.height);
   for (int pass = 0; pass < kPasses; ++pass) {
     parallelFor(0, film.height, 4, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t y = begin; y < end; ++y)
+      for (std::size_t y = begin; y < end; ++y) {
+        rows.check();
         for (int x = 0; x < film.width; ++x)
           next[y * film.width + x] = filtered(film, lights, x, static_cast<int>(y), 1 << pass);
+      }
+      rows.advance(end - begin);
     });
     lights.swap(next);
   }

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/progress.h"
 #include "core/vec.h"
 
 namespace exemplar {
@@ -48,7 +49,8 @@ struct Film {
 /// Source: C. Schied et al., "Spatiotemporal variance-guided filtering", HPG 2017,
 /// doi:10.1145/3105762.3105770, section 4.2 and 4.3: an a-trous wavelet filter with edge-stopping
 /// functions, here within one picture, with kernels of bounded support in place of exponentials.
-/// O(pixels); the same at any number of threads.
-void denoise(Film& film);
+/// O(pixels); the same at any number of threads. Throws `Cancelled`; the film is then half
+/// filtered.
+void denoise(Film& film, const Progress& progress = {});
 
 }  // namespace exemplar

@@ -20,7 +20,7 @@ struct Paint {
   Vec3f emission{};
 };
 
-/// What a mesh is made of: materials with their textures, times vertex colours; warm grey clay
+/// What a mesh is made of: materials with their textures, times vertex colors; warm gray clay
 /// where it has neither.
 class Paints {
  public:

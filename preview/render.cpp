@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 #include <string>
 
 #include "core/error.h"
+#include "core/loop_progress.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "mesh/color.h"
+#include "preview/baked_light.h"
 #include "preview/camera.h"
 #include "preview/film.h"
 #include "preview/normals.h"
@@ -68,11 +69,11 @@ struct Place {
 // The whole picture's constants, and the light that one path carries.
 class Photographer {
  public:
-  Photographer(const TriangleMesh& mesh, const RenderOptions& options);
+  Photographer(const TriangleMesh& mesh, const RenderOptions& options, const Progress& progress);
 
   int paths() const { return paths_; }
   // The pixels of one tile.
-  void expose(Film& film, int left, int top) const;
+  void expose(Film& film, int left, int top, const Progress& progress) const;
 
  private:
   struct PathLight {
@@ -107,12 +108,6 @@ class Photographer {
   Vec3f floorAlbedo_;  // makes the open floor come out as the background
 };
 
-Vec3f keyDirection(const RenderOptions& options) {
-  // Behind the camera, turned to its left.
-  const double a = options.view.azimuth - options.keyAzimuth, e = options.keyElevation;
-  return cast<float>(Vec3d{std::sin(a) * std::cos(e), -std::cos(a) * std::cos(e), std::sin(e)});
-}
-
 // The light that `filmic` shows as the background.
 Vec3f backgroundLight() {
   const Vec3f wanted{srgb8ToLinear(kBackground[0]), srgb8ToLinear(kBackground[1]),
@@ -125,13 +120,14 @@ Vec3f backgroundLight() {
   return light;
 }
 
-Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& options)
+Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& options,
+                           const Progress& progress)
     : options_(options),
       scale_(sceneScale(boundingBox(mesh), options.view.elevation < 0)),
-      tracer_(mesh, scale_),
+      tracer_(mesh, scale_, progress),
       normals_(cornerNormals(mesh, options.creaseAngle)),
       paints_(mesh),
-      studio_(keyDirection(options), static_cast<float>(options.keyRadius)),
+      studio_(cast<float>(keyDirection(options)), static_cast<float>(options.keyRadius)),
       paths_(std::max(1, options.samples / kRaysOfPath)) {
   // The camera is fitted before the scene is turned over, and turned with it: what it shows stays.
   SceneScale upright = scale_;
@@ -363,7 +359,7 @@ class LightSum {
     for (int c = 0; c < 3; ++c)
       if (reflectance_[c] > 0) result.mean[c] = reflected_[c] / reflectance_[c];
     const float n = static_cast<float>(paths), mean = sum_ / n;
-    // One path tells no variance: take all of its light for noise.
+    // One path has no variance: take all of its light for noise.
     const float spread = paths > 1 ? (squares_ / n - mean * mean) / (n - 1) : mean * mean;
     result.variance = std::max(0.0f, spread);
     return result;
@@ -385,7 +381,7 @@ FilmPixel Photographer::pixel(const PixelSampler& sampler, int x, int y) const {
     Lanes live{}, gathers{};
     std::array<double, kLanes> skipped{};
     for (int k = 0; k < lanes; ++k) {
-      // A tent of half-width 0.75 pixels about the pixel's centre.
+      // A tent of half-width 0.75 pixels about the pixel's center.
       const Sample2 at = sampler.get(first + k, 0);
       const auto tent = [](double t) {
         return 0.75 * (t < 0.5 ? std::sqrt(2 * t) - 1 : 1 - std::sqrt(2 - 2 * t));
@@ -447,13 +443,15 @@ FilmPixel Photographer::pixel(const PixelSampler& sampler, int x, int y) const {
   return pixel;
 }
 
-void Photographer::expose(Film& film, int left, int top) const {
+void Photographer::expose(Film& film, int left, int top, const Progress& progress) const {
   PixelSampler sampler(options_.seed, paths_);
-  for (int y = top; y < std::min(top + kTile, film.height); ++y)
+  for (int y = top; y < std::min(top + kTile, film.height); ++y) {
+    progress.check();
     for (int x = left; x < std::min(left + kTile, film.width); ++x) {
       sampler.startPixel(x, y);
       film.pixels[static_cast<std::size_t>(y) * film.width + x] = pixel(sampler, x, y);
     }
+  }
 }
 
 }  // namespace
@@ -468,24 +466,23 @@ Image8 render(const TriangleMesh& mesh, const RenderOptions& options, const Prog
                     std::to_string(options.height) + " pixels",
                 "ask for a smaller one");
   progress.report("preparing the picture", 0);
-  const Photographer photographer(mesh, options);
+  const Photographer photographer(mesh, options, progress);
 
   Film film{options.width, options.height,
             std::vector<FilmPixel>(static_cast<std::size_t>(options.width) * options.height)};
   const int columns = (options.width + kTile - 1) / kTile;
   const int tiles = columns * ((options.height + kTile - 1) / kTile);
-  std::mutex reporting;
-  int done = 0;
+  const Progress exposing = progress.part(0.02, 0.95);
+  LoopProgress exposed(exposing, "rendering", static_cast<std::size_t>(tiles));
   parallelFor(0, tiles, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end && !progress.cancelled(); ++t) {
+    for (std::size_t t = begin; t < end; ++t) {
+      exposed.check();
       const int tile = static_cast<int>(t);
-      photographer.expose(film, tile % columns * kTile, tile / columns * kTile);
-      const std::lock_guard lock(reporting);
-      progress.report("rendering", static_cast<double>(++done) / tiles);
+      photographer.expose(film, tile % columns * kTile, tile / columns * kTile, exposing);
+      exposed.advance();
     }
   });
-  if (progress.cancelled()) return {};
-  denoise(film);
+  denoise(film, progress.part(0.95, 1));
 
   Image8 image{options.width, options.height, 3, {}};
   image.pixels.resize(film.pixels.size() * 3);

@@ -21,7 +21,7 @@ struct View {
   double elevation = 0.52;  ///< radians above the horizon, -pi/2..pi/2
 };
 
-/// The view that a user names: `iso` (the default), `front` (looks along +y), `back`, `left`,
+/// The view of a name: `iso` (the default), `front` (looks along +y), `back`, `left`,
 /// `right` (seen from -x, from +x), `top`, `bottom`, or "AZ,EL" in degrees, as "-35,30". Throws
 /// `InputError` listing the names for anything else.
 View viewFromName(std::string_view name);
@@ -51,26 +51,26 @@ struct RenderOptions {
 
 /// A shaded picture of a mesh (Embree): a soft key light from over the shoulder, sky light with
 /// occlusion and one bounce, a ground plane that catches the shadow and is otherwise the light
-/// background (`kBackground`), metallic-roughness materials with base colour textures, vertex
-/// colours, filmic tones, z up, the camera as near as holds the whole mesh. Both sides of a face
-/// show; everything is opaque. A mesh without materials and colours is shown as warm grey clay.
+/// background (`kBackground`), metallic-roughness materials with base color textures, vertex
+/// colors, filmic tones, z up, the camera as near as holds the whole mesh. Both sides of a face
+/// show; everything is opaque. A mesh without materials and colors is shown as warm gray clay.
 ///
 /// Opaque sRGB, three channels. The same bytes at any number of threads (on one kind of machine:
-/// Embree's kernels differ in the last bit between instruction sets). An empty picture (width 0)
-/// where `progress` cancels. About 4 s on two cores for the defaults and a third of a million
-/// triangles. Throws `InputError` for options out of range, for a mesh that `validate` refuses, for
-/// a texture that cannot be decoded, and where memory would not do.
+/// Embree's kernels differ in the last bit between instruction sets). About 4 s on two cores for
+/// the defaults and a third of a million triangles. Throws `InputError` for options out of range,
+/// for a mesh that `validate` refuses, for a texture that cannot be decoded, and where memory does
+/// not suffice, and `Cancelled`.
 Image8 render(const TriangleMesh& mesh, const RenderOptions& options = {},
               const Progress& progress = {});
 
-/// A box of `size` on the same floor as `box` and centred over it: a frame to show `box` in.
+/// A box of `size` on the same floor as `box` and centered over it: a frame to show `box` in.
 Box3d frameOfSize(const Box3d& box, const Vec3d& size);
 
-/// The colour behind pictures, sRGB.
+/// The color behind pictures, sRGB.
 inline constexpr std::uint8_t kBackground[3] = {240, 240, 241};
 
 /// Pictures in a row from left to right, `gap` >= 0 pixels of background between them; lower ones
-/// are centred. All have 3 channels. Throws `InputError` for none, or where they would not fit.
+/// are centered. All have 3 channels. Throws `InputError` for none, or where they would not fit.
 Image8 sideBySide(std::span<const Image8> pictures, int gap = 0);
 
 }  // namespace exemplar

@@ -8,8 +8,7 @@
 namespace exemplar {
 namespace {
 
-constexpr std::uint32_t kStream = 0x70726576;  // this place's random numbers
-constexpr int kBlockBits = 7;                  // the Morton order spans 128 x 128 pixels
+constexpr int kBlockBits = 7;  // the Morton order spans 128 x 128 pixels
 
 std::uint32_t reverseBits(std::uint32_t v) {
   v = (v << 16) | (v >> 16);
@@ -51,7 +50,7 @@ float unit(std::uint32_t v) { return static_cast<float>(v >> 8) * 0x1p-24f; }
 
 }  // namespace
 
-PixelSampler::PixelSampler(std::uint64_t seed, int paths) : random_(seed, kStream) {
+PixelSampler::PixelSampler(std::uint64_t seed, int paths) : random_(seed, stream::kPixels) {
   assert(paths >= 1);
   while ((1 << pathBits_) < paths) ++pathBits_;
   assert(pathBits_ + 2 * kBlockBits <= 32);

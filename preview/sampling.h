@@ -24,7 +24,7 @@ struct Sample2 {
 /// scrambled Sobol' pairs, padded to more dimensions); A. G. M. Ahmed and P. Wonka, "Screen-space
 /// blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of pixels", ACM
 /// TOG 39(6), 2020, doi:10.1145/3414685.3417881. Different from the latter: base 2 in place of
-/// 4, and the order starts anew, with other keys, every 128 x 128 pixels.
+/// 4, and the order starts again, with other keys, every 128 x 128 pixels.
 class PixelSampler {
  public:
   static constexpr int kPairs = 5;  ///< sample pairs that a path may draw

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-// Two unit vectors that stand square on `n` and on each other (T. Duff et al., "Building an
+// Two unit vectors perpendicular to `n` and to each other (T. Duff et al., "Building an
 // orthonormal basis, revisited", JCGT 6(1), 2017).
 struct Frame {
   Vec3f t, b, n;
@@ -62,7 +62,7 @@ Scatter::Scatter(const Vec3f& n, const Vec3f& v, const Vec3f& baseColor, float m
   const float facing = dot(normal, viewer);
   if (facing < 0.02f) normal = normalized(normal + viewer * (0.02f - facing));
   diffuse = base * (1 - metal);
-  // Never quite black: the response is told as a multiple of it.
+  // Never quite black: the response is given as a multiple of it.
   mirror = mix({0.04f, 0.04f, 0.04f}, max(base, Vec3f{0.004f, 0.004f, 0.004f}), metal);
   alpha = rough * rough;
   const float glance = power5(1 - std::max(0.0f, dot(normal, viewer)));
@@ -121,7 +121,7 @@ Studio::Studio(const Vec3f& toKey, float keyRadius) : toKey_(normalized(toKey)) 
   const Frame frame(toKey_);
   side_ = frame.t;
   over_ = frame.b;
-  // A rim light stands behind, opposite the key light and lower.
+  // A rim light is behind, opposite the key light and lower.
   toRim_ = normalized(Vec3f{-toKey_.x, -toKey_.y, 0.35f});
   keyCosine_ = std::cos(keyRadius);
   const float s = std::sin(keyRadius / 2);
@@ -179,7 +179,7 @@ Vec3f Studio::ambient(const Vec3f& normal) const {
 
 Vec3f filmic(const Vec3f& light) {
   // Khronos "PBR Neutral" tone mapper (2024), without its toe offset's special case at black: the
-  // largest channel is compressed from 0.76 on, and colour mixes towards white with it.
+  // largest channel is compressed from 0.76 on, and color mixes toward white with it.
   constexpr float kStart = 0.76f, kDesaturation = 0.15f;
   const Vec3f c = max(light, Vec3f{});
   const float peak = std::max({c.x, c.y, c.z});

@@ -28,7 +28,7 @@ struct Scatter {
           float roughness);
 
   /// What part of the light from `light` (unit) goes to the viewer, times the cosine there: as a
-  /// multiple of `diffuse` (one number for all colours) and of `mirror` (one each).
+  /// multiple of `diffuse` (one number for all colors) and of `mirror` (one each).
   struct Response {
     float diffuse = 0;
     Vec3f mirror{};
@@ -84,7 +84,7 @@ class Studio {
 };
 
 /// Scene light to display light in 0..1, linear both: straight up to a shoulder, then a soft
-/// roll-off that loses colour as it nears white.
+/// roll-off that loses color as it nears white.
 Vec3f filmic(const Vec3f& light);
 
 }  // namespace exemplar

@@ -10,7 +10,7 @@
 namespace exemplar {
 namespace {
 
-// Which texels stand on both sides of coordinate t, and how far towards the second.
+// The texels on both sides of coordinate t, and how far toward the second.
 struct Between {
   int first, second;
   float share;
@@ -32,8 +32,8 @@ ColorTexture::ColorTexture(const Texture& texture)
 Vec3f ColorTexture::texel(int x, int y) const {
   const std::uint8_t* p = image_.at(x, y);
   if (image_.channels < 3) {
-    const float grey = srgb8ToLinear(p[0]);
-    return {grey, grey, grey};
+    const float gray = srgb8ToLinear(p[0]);
+    return {gray, gray, gray};
   }
   return {srgb8ToLinear(p[0]), srgb8ToLinear(p[1]), srgb8ToLinear(p[2])};
 }

@@ -9,13 +9,13 @@
 
 namespace exemplar {
 
-/// A decoded colour texture. Opacity is left out.
+/// A decoded color texture. Opacity is left out.
 class ColorTexture {
  public:
   /// Throws `InputError` where it cannot be decoded.
   explicit ColorTexture(const Texture& texture);
 
-  /// Linear RGB at `uv`, v up, repeating; bilinear between texel centres. Not-finite coordinates
+  /// Linear RGB at `uv`, v up, repeating; bilinear between texel centers. Not-finite coordinates
   /// read as (0, 0).
   Vec3f at(const Vec2f& uv) const;
 

@@ -47,6 +47,17 @@ bool any(const Lanes& lanes) {
 
 }  // namespace
 
+void commitScene(RTCSceneTy* scene, const Progress& progress) {
+  rtcSetSceneProgressMonitorFunction(
+      scene,
+      [](void* watched, double) { return !static_cast<const Progress*>(watched)->cancelled(); },
+      const_cast<Progress*>(&progress));
+  tbb::task_arena alone(1);
+  alone.execute([&] { rtcJoinCommitScene(scene); });
+  rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+  progress.check();
+}
+
 SceneScale sceneScale(const Box3d& box, bool turnedOver) {
   const Vec3d size = box.size();
   const double side = std::max({size.x, size.y, size.z});
@@ -56,7 +67,8 @@ SceneScale sceneScale(const Box3d& box, bool turnedOver) {
 void Tracer::ReleaseDevice::operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
 void Tracer::ReleaseScene::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
 
-Tracer::Tracer(const TriangleMesh& mesh, const SceneScale& scale) : device_(rtcNewDevice(nullptr)) {
+Tracer::Tracer(const TriangleMesh& mesh, const SceneScale& scale, const Progress& progress)
+    : device_(rtcNewDevice(nullptr)) {
   if (!device_) throw std::runtime_error("Embree: no device");
   scene_.reset(rtcNewScene(device_.get()));
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -80,10 +92,7 @@ Tracer::Tracer(const TriangleMesh& mesh, const SceneScale& scale) : device_(rtcN
   rtcAttachGeometry(scene_.get(), geometry);
   rtcReleaseGeometry(geometry);  // the scene holds it
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  // Built by one thread: with more, the order of triangles within the tree's leaves would depend on
-  // their number, and with it which of two coinciding triangles a ray reports.
-  tbb::task_arena alone(1);
-  alone.execute([&] { rtcJoinCommitScene(scene_.get()); });
+  commitScene(scene_.get(), progress);
   if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
     throw std::runtime_error("Embree: error " + std::to_string(error));
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/progress.h"
 #include "core/vec.h"
 #include "mesh/triangle_mesh.h"
 
@@ -36,6 +37,11 @@ struct SceneScale {
   }
 };
 
+/// Builds a scene's tree by one thread: with more, the order of triangles within its leaves would
+/// depend on their number, and with it which of two coinciding triangles a ray reports. Throws
+/// `Cancelled`.
+void commitScene(RTCSceneTy* scene, const Progress& progress);
+
 /// For a mesh in `box`.
 SceneScale sceneScale(const Box3d& box, bool turnedOver);
 
@@ -57,7 +63,8 @@ using Hits = std::array<Hit, kLanes>;
 /// Rays against a mesh (Embree). The same answers at any number of threads, on one kind of machine.
 class Tracer {
  public:
-  Tracer(const TriangleMesh& mesh, const SceneScale& scale);
+  /// Throws `Cancelled`.
+  Tracer(const TriangleMesh& mesh, const SceneScale& scale, const Progress& progress = {});
 
   /// Nearest hits of the rays in `live` lanes. `coherent`: the rays run much alike (a hint).
   Hits nearest(const Rays& rays, const Lanes& live, bool coherent) const;

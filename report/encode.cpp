@@ -38,20 +38,6 @@ std::size_t sequenceAt(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-std::string base64(std::string_view bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t b = 0; b < 3; ++b)
-      group = group << 8 | (i + b < bytes.size() ? static_cast<unsigned char>(bytes[i + b]) : 0u);
-    for (std::size_t d = 0; d < 4; ++d)
-      text += i + d > bytes.size() ? '=' : kDigits[group >> (18 - 6 * d) & 63];
-  }
-  return text;
-}
-
 std::string deflated(std::string_view bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string out(size, '\0');
@@ -95,7 +81,7 @@ std::string escapedHtml(std::string_view text) {
 std::string escapedJson(std::string_view json) {
   std::string safe;
   safe.reserve(json.size());
-  // In JSON these stand inside of strings only, so an escape is always right.
+  // In JSON these occur inside strings only, so an escape is always right.
   for (std::size_t at = 0; at < json.size(); ++at) {
     const std::string_view rest = json.substr(at, 3);
     if (json[at] == '<') {

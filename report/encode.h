@@ -9,9 +9,6 @@
 /// How bytes and text get into a page whole and harmless.
 namespace exemplar {
 
-/// RFC 4648's base64, padded.
-std::string base64(std::string_view bytes);
-
 /// A zlib stream (RFC 1950), as browsers' `DecompressionStream("deflate")` reads. The same bytes
 /// for the same input (of one version of zlib).
 std::string deflated(std::string_view bytes);

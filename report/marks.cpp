@@ -10,10 +10,12 @@
 #include <map>
 #include <utility>
 
-#include "core/error.h"
-#include "measure/novelty.h"
+#include "core/cells.h"
 #include "core/disjoint_sets.h"
+#include "core/error.h"
 #include "core/origin.h"
+#include "core/parallel.h"
+#include "measure/novelty.h"
 
 namespace exemplar {
 namespace {
@@ -25,21 +27,27 @@ constexpr std::size_t kPlacesLooked = 64;      // of a repeated part
 constexpr std::size_t kLooked = 400;           // samples of a place that are looked at
 
 /// The solid samples with an empty one at a face, by rising index.
-std::vector<std::size_t> surfaceSamples(const DistanceField& field) {
-  std::vector<std::size_t> surface;
+std::vector<std::size_t> surfaceSamples(const DistanceField& field, const Progress& progress) {
+  std::vector<std::vector<std::size_t>> layers(static_cast<std::size_t>(field.size().z));
   const Array3D<float>& values = field.values;
-  for (std::size_t n = 0; n < values.count(); ++n) {
-    if (!(values.values()[n] < 0)) continue;
-    const Vec3i p = values.ijk(n);
-    bool open = false;
-    for (int axis = 0; axis < 3 && !open; ++axis)
-      for (const int side : {-1, 1}) {
-        Vec3i q = p;
-        q[axis] += side;
-        open |= values.contains(q) && !(values[q] < 0);
-      }
-    if (open) surface.push_back(n);
-  }
+  parallelFor(0, layers.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t layer = begin; layer < end; ++layer) {
+      progress.check();
+      const int k = static_cast<int>(layer);
+      const CellBox box{{0, 0, k}, {field.size().x, field.size().y, k + 1}};
+      forEachCell(box, [&](const Vec3i& p) {
+        if (!(values[p] < 0)) return;
+        for (const Vec3i& step : kFaceSteps) {
+          const Vec3i q = p + step;
+          if (!values.contains(q) || values[q] < 0) continue;
+          layers[layer].push_back(values.index(p));
+          return;
+        }
+      });
+    }
+  });
+  std::vector<std::size_t> surface;
+  for (const auto& layer : layers) surface.insert(surface.end(), layer.begin(), layer.end());
   return surface;
 }
 
@@ -48,12 +56,12 @@ class Eye {
  public:
   Eye(const DistanceField& field, const Camera& camera) : field_(field), camera_(camera) {}
 
-  /// Where the picture shows a sample of the surface, unless something stands before it.
+  /// Where the picture shows a sample of the surface, unless something hides it.
   std::optional<std::array<double, 2>> sees(const Vec3i& sample) const {
     const Vec3d from = field_.position(cast<double>(sample));
     const auto at = pictureOf(camera_, from);
     if (!at) return std::nullopt;
-    // Towards the camera in steps of half a voxel; the first few leave the surface's own skin.
+    // Toward the camera in steps of half a voxel; the first few leave the surface's own skin.
     const Vec3d step = normalized(camera_.position - from) * 0.5;
     Vec3d index = cast<double>(sample) + step * 4.0;
     const double steps = length(camera_.position - from) / field_.voxelSize * 2 - 4;
@@ -158,7 +166,7 @@ void markSeams(const std::vector<std::size_t>& surface, const Array3D<float>& ju
 void markRepeats(const DistanceField& example, const std::vector<std::size_t>& exampleSurface,
                  const std::vector<std::size_t>& surface, const Origins& origins, int exampleIndex,
                  const Eye& eye, const Array3D<float>& grid, const MarkOptions& options,
-                 std::vector<Mark>& marks) {
+                 std::vector<Mark>& marks, const Progress& progress) {
   const Vec3i count = cellCount(example.size(), kRepeatCell);
   Array3D<std::uint32_t> own(count), used(count);
   Array3D<std::uint8_t> isSurface(example.size());
@@ -193,6 +201,7 @@ void markRepeats(const DistanceField& example, const std::vector<std::size_t>& e
       return std::max({std::abs(t.x - cell.x), std::abs(t.y - cell.y), std::abs(t.z - cell.z)}) < 2;
     });
     if (beside) continue;
+    progress.check();
     std::map<OriginMotion, std::vector<std::size_t>> places;
     for (const std::size_t n : surface) {
       const Origin& o = origins.values()[n];
@@ -224,21 +233,21 @@ void markRepeats(const DistanceField& example, const std::vector<std::size_t>& e
 
 void markCopies(std::size_t exampleSurface, const std::vector<std::size_t>& surface,
                 const Origins& origins, const Eye& eye, const Array3D<float>& grid,
-                const MarkOptions& options, std::vector<Mark>& marks) {
+                const MarkOptions& options, std::vector<Mark>& marks, const Progress& progress) {
   DisjointSets regions(origins.count());
-  for (std::size_t n = 0; n < origins.count(); ++n) {
-    const Vec3i a = origins.ijk(n);
-    for (int axis = 0; axis < 3; ++axis) {
-      Vec3i step{};
-      step[axis] = 1;
-      if (origins.contains(a + step) && continues(origins[a], origins[a + step], step))
-        regions.join(static_cast<std::uint32_t>(n),
-                     static_cast<std::uint32_t>(origins.index(a + step)));
-    }
+  const Vec3i n = origins.size();
+  for (int k = 0; k < n.z; ++k) {
+    progress.report("marking what shows", static_cast<double>(k) / n.z);
+    forEachCell(CellBox{{0, 0, k}, {n.x, n.y, k + 1}}, [&](const Vec3i& a) {
+      for (const Vec3i& step : {Vec3i{1, 0, 0}, Vec3i{0, 1, 0}, Vec3i{0, 0, 1}})
+        if (origins.contains(a + step) && continues(origins[a], origins[a + step], step))
+          regions.join(static_cast<std::uint32_t>(origins.index(a)),
+                       static_cast<std::uint32_t>(origins.index(a + step)));
+    });
   }
   std::map<std::uint32_t, std::vector<std::size_t>> parts;
-  for (const std::size_t n : surface)
-    parts[regions.find(static_cast<std::uint32_t>(n))].push_back(n);
+  for (const std::size_t s : surface)
+    parts[regions.find(static_cast<std::uint32_t>(s))].push_back(s);
   std::vector<const std::vector<std::size_t>*> order;
   for (const auto& [region, samples] : parts) order.push_back(&samples);
   std::stable_sort(order.begin(), order.end(),
@@ -256,19 +265,24 @@ void markCopies(std::size_t exampleSurface, const std::vector<std::size_t>& surf
 
 std::vector<Mark> findMarks(const DistanceField& example, const DistanceField& result,
                             const Origins& origins, const Array3D<float>& jumps,
-                            const Camera& camera, const MarkOptions& options, int exampleIndex) {
+                            const Camera& camera, const MarkOptions& options, int exampleIndex,
+                            const Progress& progress) {
+  progress.report("marking what shows", 0);
   requireOriginsFit(origins, example, result, exampleIndex);
   if (jumps.size() != result.size())
     throw InputError("seam jumps must be one for each of the result's samples");
   std::vector<Mark> marks;
-  const std::vector<std::size_t> surface = surfaceSamples(result);
-  const std::vector<std::size_t> exampleSurface = surfaceSamples(example);
+  const std::vector<std::size_t> surface = surfaceSamples(result, progress);
+  const std::vector<std::size_t> exampleSurface = surfaceSamples(example, progress);
   if (surface.empty() || exampleSurface.empty()) return marks;
   const Eye eye(result, camera);
+  progress.report("marking what shows", 0.2);
   markSeams(surface, jumps, eye, options, marks);
+  progress.report("marking what shows", 0.3);
   markRepeats(example, exampleSurface, surface, origins, exampleIndex, eye, result.values, options,
-              marks);
-  markCopies(exampleSurface.size(), surface, origins, eye, result.values, options, marks);
+              marks, progress);
+  markCopies(exampleSurface.size(), surface, origins, eye, result.values, options, marks,
+             progress.part(0.5, 1));
   return marks;
 }
 

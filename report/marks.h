@@ -9,6 +9,7 @@
 
 #include "core/array3d.h"
 #include "core/origin.h"
+#include "core/progress.h"
 #include "core/vec.h"
 #include "preview/camera.h"
 #include "sdf/distance_field.h"
@@ -19,17 +20,17 @@ namespace exemplar {
 struct Mark {
   enum class Kind {
     Seam,    ///< a seam that jumps much
-    Repeat,  ///< a part of the example that stands in the result more often than others
+    Repeat,  ///< a part of the example that occurs in the result more often than others
     Copy,    ///< a large part of the example taken over as it is
   };
   Kind kind = Kind::Seam;
   int group = 0;     ///< the same for all places of one repeated part; from 0
   Vec3d position{};  ///< on the surface, world units
-  /// Seam: the largest jump, voxels. Repeat: how often the part stands in the result, over how
+  /// Seam: the largest jump, voxels. Repeat: how often the part occurs in the result, over how
   /// often the example's surface does on average. Copy: its surface over the example's.
   double value = 0;
   /// Where the picture shows it: 0..1 from the left and from the top; nothing where all of it is
-  /// hidden by what stands before it.
+  /// hidden.
   std::optional<std::array<double, 2>> at;
   std::vector<std::array<double, 2>> outline;  ///< around what is seen of it: convex, in order
 };
@@ -50,16 +51,16 @@ struct MarkOptions {
 ///
 /// Seams: the surface is cut into cells of 6 samples a side; the cells with most jump, none beside
 /// another. Repeats: the example's surface in cells of 8 samples a side, and wherever a quarter of
-/// such a cell or more stands in the result by one motion. Copies: the connected regions of one
+/// such a cell or more occurs in the result by one motion. Copies: the connected regions of one
 /// motion (`verbatimRun`) with most surface.
 ///
 /// `jumps` is `seamJumps` of both. O(samples log samples), deterministic. Throws `InputError` for
-/// origins or jumps that do not fit. Origins in other examples than number `exampleIndex` count for
-/// copies alone.
+/// origins or jumps that do not fit, and `Cancelled`. Origins in other examples than number
+/// `exampleIndex` count for copies alone.
 std::vector<Mark> findMarks(const DistanceField& example, const DistanceField& result,
                             const Origins& origins, const Array3D<float>& jumps,
                             const Camera& camera, const MarkOptions& options = {},
-                            int exampleIndex = 0);
+                            int exampleIndex = 0, const Progress& progress = {});
 
 /// The smallest convex polygon around points, anticlockwise where y points up, from the lowest x;
 /// of fewer than three corners where the points are in a line.

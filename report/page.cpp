@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
+#include "core/base64.h"
 #include "core/error.h"
 #include "mesh/jpeg.h"
 #include "report/encode.h"
@@ -40,12 +41,12 @@ void ReportPage::addView(const std::string& name, std::string part) {
 }
 
 void ReportPage::addPicture(const std::string& name, const Image8& image) {
-  pictures_.push_back({name, base64(encodeJpeg(image, kQuality))});
+  pictures_.push_back({name, encodeBase64(encodeJpeg(image, kQuality))});
 }
 
 std::size_t ReportPage::bytes() const {
   std::size_t sum = resources::style().size() + resources::script().size() +
-                    resources::viewer().size() + resources::licence().size();
+                    resources::viewer().size() + resources::license().size();
   for (const Part& part : views_) sum += part.text.size();
   for (const Part& part : pictures_) sum += part.text.size();
   return sum;
@@ -82,9 +83,9 @@ std::string ReportPage::html(const Json& report) const {
     html += "<script type=\"application/json\" data-view=\"" + escapedHtml(view.name) + "\">" +
             escapedJson(view.text) + "</script>\n";
   }
-  if (!resources::licence().empty()) {
-    html += "<template id=\"licence\">";
-    html += escapedHtml(resources::licence());
+  if (!resources::license().empty()) {
+    html += "<template id=\"license\">";
+    html += escapedHtml(resources::license());
     html += "</template>\n";
   }
   if (!resources::viewer().empty()) {
@@ -107,7 +108,7 @@ std::string viewPart(const ViewMesh& view) {
                   {{"side", ViewFloor::kSide},
                    {"box", {corner(view.floor.box.min), corner(view.floor.box.max)}}}},
                  {"jump_steps", ViewVertex::kJumpSteps},
-                 {"data", base64(packViewMesh(view))}});
+                 {"data", encodeBase64(packViewMesh(view))}});
 }
 
 Json toJson(const std::vector<Mark>& marks) {

@@ -19,8 +19,8 @@ namespace exemplar {
 ///
 /// What it says is JSON, as `compare.json` holds it: `title`, `description`, `example`, `runs`
 /// (each with `engine`, `seed`, `status`, and where complete `figures`, `seconds`, `marks`),
-/// `figures` (group, key and meaning of each) and `notes`; docs/report.md tells all of it. Where it
-/// names a view or picture, that is the name of one that was added.
+/// `figures` (group, key and meaning of each) and `notes`; docs/report.md describes all of it.
+/// Where it names a view or picture, that is the name of one that was added.
 class ReportPage {
  public:
   /// A surface, as `viewPart` gives it.

@@ -11,6 +11,6 @@ namespace exemplar::resources {
 std::string_view style();    ///< page.css
 std::string_view script();   ///< the page's own scripts
 std::string_view viewer();   ///< three.js and viewer.js, bundled; empty where it was built without
-std::string_view licence();  ///< of three.js; empty likewise
+std::string_view license();  ///< of three.js; empty likewise
 
 }  // namespace exemplar::resources

@@ -1,91 +1,94 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include "report/simplify_soup.h"
+#include "report/simplify.h"
+
+#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace exemplar {
 namespace {
 
-constexpr int kFinest = 4096;  // cells along the longest side
+/// Whatever it costs in looks, as a share of the mesh's size.
+constexpr float kAnyError = 1;
 
-/// For each vertex the number of its cell, from 0 without gaps.
-std::vector<std::uint32_t> cellNumbers(const TriangleMesh& mesh, const Box3d& box, int cells,
-                                       std::uint32_t* count) {
+/// A mesh as meshoptimizer takes it: vertices at the same place are one, and coordinates run from 0
+/// to 1 along the longest side, so that single precision serves wherever the mesh is.
+struct Welded {
+  std::vector<unsigned> indices;
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::uint32_t> original;  ///< of each vertex, one in the mesh
+};
+
+Welded welded(const TriangleMesh& mesh) {
+  Welded w;
+  const std::size_t n = mesh.positions.size();
+  std::vector<unsigned> number(n);
+  const std::size_t count = meshopt_generateVertexRemap(number.data(), nullptr, n,
+                                                        mesh.positions.data(), n, sizeof(Vec3d));
+  const Box3d box = boundingBox(mesh);
   const Vec3d size = box.size();
   const double longest = std::max({size.x, size.y, size.z});
-  const double scale = longest > 0 ? cells / longest : 0;
-  std::vector<std::uint64_t> codes(mesh.positions.size());
-  for (std::size_t v = 0; v < codes.size(); ++v) {
-    const Vec3d p = (mesh.positions[v] - box.min) * scale;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double step = std::clamp(std::floor(p[axis]), 0.0, static_cast<double>(cells));
-      codes[v] = codes[v] << 13 | static_cast<std::uint64_t>(step);
-    }
+  const double scale = longest > 0 ? 1 / longest : 0;
+  w.positions.resize(count);
+  w.original.resize(count);
+  for (std::size_t v = n; v-- > 0;) {  // the first of those at one place is kept
+    const Vec3f p = cast<float>((mesh.positions[v] - box.min) * scale);
+    w.positions[number[v]] = {p.x, p.y, p.z};
+    w.original[number[v]] = static_cast<std::uint32_t>(v);
   }
-  std::vector<std::uint64_t> sorted = codes;
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  *count = static_cast<std::uint32_t>(sorted.size());
-  std::vector<std::uint32_t> numbers(codes.size());
-  for (std::size_t v = 0; v < codes.size(); ++v)
-    numbers[v] = static_cast<std::uint32_t>(
-        std::lower_bound(sorted.begin(), sorted.end(), codes[v]) - sorted.begin());
-  return numbers;
+  w.indices.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    const std::array<unsigned, 3> corners{number[t[0]], number[t[1]], number[t[2]]};
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2]) continue;
+    w.indices.insert(w.indices.end(), corners.begin(), corners.end());
+  }
+  return w;
 }
 
-TriangleMesh joined(const TriangleMesh& mesh, const Box3d& box, int cells) {
-  TriangleMesh coarse;
-  std::uint32_t count = 0;
-  const std::vector<std::uint32_t> cell = cellNumbers(mesh, box, cells, &count);
-  coarse.positions.assign(count, {});
-  std::vector<double> members(count, 0);
-  for (std::size_t v = 0; v < cell.size(); ++v) {
-    coarse.positions[cell[v]] += mesh.positions[v];
-    members[cell[v]] += 1;
+/// The vertices of the mesh that are still in use, and its triangles.
+TriangleMesh compacted(const TriangleMesh& mesh, const Welded& w,
+                       const std::vector<unsigned>& indices) {
+  constexpr std::uint32_t kUnused = ~0u;
+  TriangleMesh kept;
+  std::vector<std::uint32_t> number(w.original.size(), kUnused);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    std::uint32_t& v = number[indices[i]];
+    if (v == kUnused) {
+      v = static_cast<std::uint32_t>(kept.positions.size());
+      kept.positions.push_back(mesh.positions[w.original[indices[i]]]);
+    }
+    if (i % 3 == 0) kept.triangles.emplace_back();
+    kept.triangles.back()[i % 3] = v;
   }
-  for (std::uint32_t c = 0; c < count; ++c) coarse.positions[c] *= 1 / members[c];
-  for (const auto& t : mesh.triangles) {
-    std::array<std::uint32_t, 3> corners{cell[t[0]], cell[t[1]], cell[t[2]]};
-    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2]) continue;
-    // The lowest corner first, and the same triangle once.
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    coarse.triangles.push_back(corners);
-  }
-  std::sort(coarse.triangles.begin(), coarse.triangles.end());
-  coarse.triangles.erase(std::unique(coarse.triangles.begin(), coarse.triangles.end()),
-                         coarse.triangles.end());
-  return coarse;
+  return kept;
 }
 
 }  // namespace
 
-TriangleMesh simplifySoup(const TriangleMesh& mesh, std::int64_t triangles) {
-  const Box3d box = boundingBox(mesh);
-  TriangleMesh best;
-  for (int low = 1, high = kFinest; low <= high;) {
-    const int cells = (low + high) / 2;
-    TriangleMesh coarse = joined(mesh, box, cells);
-    if (static_cast<std::int64_t>(coarse.triangles.size()) > triangles) {
-      high = cells - 1;
-    } else {
-      low = cells + 1;
-      if (!coarse.triangles.empty()) best = std::move(coarse);
-    }
+TriangleMesh simplified(const TriangleMesh& mesh, std::int64_t triangles) {
+  const Welded w = welded(mesh);
+  const auto most = static_cast<std::size_t>(3 * triangles);
+  if (w.indices.size() <= most) return compacted(mesh, w, w.indices);
+  const float* positions = w.positions.empty() ? nullptr : w.positions[0].data();
+  constexpr std::size_t kStride = sizeof w.positions[0];
+  std::vector<unsigned> indices(w.indices.size());
+  indices.resize(meshopt_simplify(indices.data(), w.indices.data(), w.indices.size(), positions,
+                                  w.positions.size(), kStride, most, kAnyError));
+  if (indices.size() > most || indices.empty()) {
+    indices.resize(w.indices.size());
+    indices.resize(meshopt_simplifySloppy(indices.data(), w.indices.data(), w.indices.size(),
+                                          positions, w.positions.size(), kStride, most, kAnyError));
   }
-  if (best.triangles.empty()) {
-    best.positions = mesh.positions;
-    best.triangles.assign(mesh.triangles.begin(),
-                          mesh.triangles.begin() +
-                              std::min<std::ptrdiff_t>(
-                                  triangles, static_cast<std::ptrdiff_t>(mesh.triangles.size())));
+  if (indices.size() > most || indices.empty()) {  // nothing is left of so few: some of its own
+    indices = w.indices;
+    indices.resize(std::min(most, indices.size()));
   }
-  return best;
+  return compacted(mesh, w, indices);
 }
 
 }  // namespace exemplar

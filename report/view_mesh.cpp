@@ -9,27 +9,25 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/loop_progress.h"
 #include "core/memory.h"
+#include "core/origin.h"
 #include "core/parallel.h"
 #include "mesh/color.h"
 #include "preview/normals.h"
 #include "preview/texture.h"
-#include "reconstruct/decimate.h"
 #include "reconstruct/example_surface.h"
-#include "core/origin.h"
 #include "report/encode.h"
-#include "report/simplify_soup.h"
+#include "report/simplify.h"
 #include "report/subdivide.h"
 
 namespace exemplar {
 namespace {
 
 constexpr std::size_t kGrain = 2048;
-/// A view may keep so many times the triangles that were asked for before it is simplified harder.
-constexpr double kTolerated = 1.25;
 /// The longest edge of a surface with few triangles, as a share of its box's diagonal.
 constexpr double kLongestEdge = 0.01;
-/// Light is gathered at corners drawn in so far towards their triangles' middles: corners stand in
+/// Light is gathered at corners drawn in so far towards their triangles' middles: corners may be in
 /// the ground or in each other.
 constexpr double kDrawnIn = 0.2;
 constexpr double kBytesPerTriangle = 900;  // of simplifying, and of looking up what was there
@@ -70,7 +68,7 @@ class Palette {
       looks.roughness = byteOf(m.roughness);
       const float own = std::max({m.emission.x, m.emission.y, m.emission.z});
       if (own > 0) {
-        // A view has one colour a point: that of the light, where it has light.
+        // A view has one color a point: that of the light, where it has light.
         color = m.emission / own;
         looks.glow = byteOf(own);
       }
@@ -109,7 +107,7 @@ TriangleMesh bare(const TriangleMesh& mesh) {
   return shape;
 }
 
-/// What is drawn, and how it stands to the surface that it shows.
+/// What is drawn, and how it relates to the surface that it shows.
 struct Shape {
   TriangleMesh mesh;
   bool another = false;  ///< simplified; else its triangles are parts of the surface's:
@@ -141,15 +139,7 @@ Shape shapeOf(const TriangleMesh& mesh, std::int64_t triangles) {
   requireMemory(kBytesPerTriangle * static_cast<double>(mesh.triangles.size()),
                 "simplifying a surface for the report", "leave the report out");
   shape.another = true;
-  try {
-    decimate(shape.mesh, {.error = diagonal, .triangles = triangles});
-  } catch (const InputError&) {
-    shape.mesh = bare(mesh);  // a soup
-  }
-  if (static_cast<double>(shape.mesh.triangles.size()) >
-      kTolerated * static_cast<double>(triangles)) {
-    shape.mesh = simplifySoup(mesh, triangles);
-  }
+  shape.mesh = simplified(mesh, triangles);
   return shape;
 }
 
@@ -160,7 +150,8 @@ Vec3d centroid(const TriangleMesh& mesh, std::size_t t) {
 }
 
 /// The looks of every triangle's corners.
-std::vector<std::array<Looks, 3>> cornerLooks(const Shape& drawn, const TriangleMesh& full) {
+std::vector<std::array<Looks, 3>> cornerLooks(const Shape& drawn, const TriangleMesh& full,
+                                              const Progress& progress) {
   const Palette palette(full);
   const TriangleMesh& shape = drawn.mesh;
   std::vector<std::array<Looks, 3>> looks(shape.triangles.size());
@@ -172,8 +163,10 @@ std::vector<std::array<Looks, 3>> cornerLooks(const Shape& drawn, const Triangle
   }
   const ExampleSurface surface(full);
   const double facing = 0.02 * length(boundingBox(full).size());
+  LoopProgress done(progress, "coloring the view", looks.size());
   parallelFor(0, looks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
+      done.check();
       ClosestOptions closest;
       closest.facing = normalized(areaNormal(shape, t));
       closest.facingCost = facing;
@@ -182,7 +175,7 @@ std::vector<std::array<Looks, 3>> cornerLooks(const Shape& drawn, const Triangle
       if (!at) continue;
       looks[t].fill(palette.at(at->triangle, at->weights));
       if (!palette.varies()) continue;
-      // Colours vary from corner to corner, but stay within the triangle's one material.
+      // Colors vary from corner to corner, but stay within the triangle's one material.
       if (full.hasMaterials()) {
         closest.groups = full.triangleMaterials;
         closest.group = full.triangleMaterials[at->triangle];
@@ -193,6 +186,7 @@ std::vector<std::array<Looks, 3>> cornerLooks(const Shape& drawn, const Triangle
           looks[t][c] = palette.at(near->triangle, near->weights);
       }
     }
+    done.advance(end - begin);
   });
   return looks;
 }
@@ -263,7 +257,7 @@ class Sources {
 /// that differ by less than this (cosine; some 30 degrees), whose mean it then has.
 constexpr float kAlike = 0.86f;
 
-/// The corners that stand at the vertices of a shape, as many at each as differ.
+/// The corners at the vertices of a shape, as many at each as differ.
 class Corners {
  public:
   explicit Corners(std::size_t vertices) : first_(vertices, kNone) {}
@@ -296,7 +290,7 @@ class Corners {
     Vec3d sum;
     double count = 0;
   };
-  std::vector<Vec3f> normals;  ///< of each corner; the sum of those that it stands for
+  std::vector<Vec3f> normals;  ///< of each corner; the sum of those that it represents
   std::vector<Sum> probes;     ///< the places that light is gathered at
 
  private:
@@ -338,7 +332,7 @@ class Planes {
   std::string out;
 };
 
-/// Points on the floor around what stands there, as far as its shadow may fall.
+/// Points on the floor around the surface, as far as its shadow may fall.
 ViewFloor floorBelow(const Box3d& box, std::vector<LightProbe>& probes) {
   ViewFloor floor;
   const Vec3d size = box.size();
@@ -377,11 +371,11 @@ ViewMesh makeViewMesh(const ViewSource& source, const ViewOptions& options,
   progress.report("simplifying the view", 0);
   const Shape drawn = shapeOf(source.mesh, options.triangles);
   const TriangleMesh& shape = drawn.mesh;
-  if (progress.cancelled()) return {};
-  const std::vector<std::array<Looks, 3>> looks = cornerLooks(drawn, source.mesh);
+  const std::vector<std::array<Looks, 3>> looks =
+      cornerLooks(drawn, source.mesh, progress.part(0.3, 0.5));
   const std::vector<std::array<Vec3f, 3>> normals =
       cornerNormals(shape, options.picture.creaseAngle);
-  if (progress.cancelled()) return {};
+  progress.report("placing the view's corners", 0.55);
 
   ViewMesh view;
   view.box = boundingBox(shape);
@@ -427,8 +421,7 @@ ViewMesh makeViewMesh(const ViewSource& source, const ViewOptions& options,
   bake.rays = options.rays;
   bake.picture = options.picture;
   view.floor = floorBelow(view.box, probes);
-  const std::vector<BakedLight> light = bakeLight(shape, probes, bake, progress);
-  if (light.empty()) return {};
+  const std::vector<BakedLight> light = bakeLight(shape, probes, bake, progress.part(0.6, 1));
   for (std::size_t v = 0; v < view.vertices.size(); ++v) view.vertices[v].light = light[v];
   for (std::size_t p = view.vertices.size(); p < light.size(); ++p)
     view.floor.light.push_back(static_cast<std::uint8_t>(

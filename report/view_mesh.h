@@ -33,9 +33,10 @@ struct ViewSource {
 };
 
 struct ViewOptions {
-  std::int64_t triangles = 100000;  ///< a surface of more is simplified to about so many; >= 1000
-  int rays = 48;                    ///< of baked light towards the sky, 1..4096
-  RenderOptions picture;            ///< the picture that the view shall look like
+  std::int64_t triangles =
+      100000;             ///< a surface of more is simplified to at most this many; >= 1000
+  int rays = 48;          ///< of baked light towards the sky, 1..4096
+  RenderOptions picture;  ///< the picture that the view should look like
 };
 
 /// A corner as a view keeps it: 20 bytes before compression.
@@ -44,7 +45,7 @@ struct ViewVertex {
   std::array<std::int8_t, 2> normal{};       ///< octahedral (`octahedral`), times 127
   std::array<std::uint8_t, 3> color{};       ///< sRGB
   std::uint8_t metallic = 0, roughness = 0;  ///< times 255
-  std::uint8_t glow = 0;                     ///< light of its own in units of its colour, times 255
+  std::uint8_t glow = 0;                     ///< light of its own in units of its color, times 255
   BakedLight light;
   /// Where in the example's box it came from, 1..255 along each side; all 0: not known.
   std::array<std::uint8_t, 3> source{};
@@ -70,14 +71,14 @@ struct ViewMesh {
   std::int64_t ofTriangles = 0;  ///< that the surface had before it was simplified, where it was
 };
 
-/// Makes a view of a surface: simplifies it (`decimate`; a soup by joining the vertices in the
-/// cells of a grid), takes each corner's looks from the nearest place of the full surface, bakes
-/// light, and puts to each corner its source and seam jump. Corners where materials, sources or
-/// normals change stand twice, so that borders stay sharp.
+/// Makes a view of a surface: simplifies it (`simplified`), takes each corner's looks from the
+/// nearest place of the full surface, bakes light, and gives each corner its source and seam jump.
+/// Where materials, sources or normals change at a vertex there are several corners, so that
+/// borders stay sharp.
 ///
 /// O(n log n) for n triangles. The same bytes at any number of threads (on one kind of machine, as
-/// `render`). Empty where `progress` cancels. Throws `InputError` for options out of range, a mesh
-/// that `validate` refuses, and origins that do not fit.
+/// `render`). Throws `InputError` for options out of range, a mesh that `validate` refuses, and
+/// origins that do not fit, and `Cancelled`.
 ViewMesh makeViewMesh(const ViewSource& source, const ViewOptions& options = {},
                       const Progress& progress = {});
 

@@ -7,7 +7,6 @@
 #include <bit>
 #include <limits>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "core/error.h"
@@ -20,15 +19,11 @@ namespace {
 using kernels::kFeatures;
 using kernels::kWide;
 
-// Where found blocks go. `limit` is the largest sum that is still of interest.
-
-template <class Sum>
-constexpr Sum kNoLimit = std::numeric_limits<Sum>::max();
-
+// The nearest block so far. `limit` is the largest sum that is still of interest.
 template <class Sum>
 struct BestBlock {
-  static constexpr bool kOne = true;
-  Sum limit = kNoLimit<Sum>;
+  static constexpr Sum kNoLimit = std::numeric_limits<Sum>::max();
+  Sum limit = kNoLimit;
   std::uint32_t position = kNoPosition;
 
   // At distance 0 only a lower position can come before.
@@ -38,27 +33,6 @@ struct BestBlock {
       limit = sum;
       position = at;
     }
-  }
-};
-
-template <class Sum>
-struct NearestBlocks {
-  static constexpr bool kOne = false;
-  std::size_t count = 0;
-  std::vector<std::pair<Sum, std::uint32_t>> heap{};
-  Sum limit = kNoLimit<Sum>;
-
-  bool hopeless(std::uint32_t lowest) const {
-    return limit == 0 && heap.size() == count && lowest > heap.front().second;
-  }
-  void offer(Sum sum, std::uint32_t at) {
-    heap.emplace_back(sum, at);
-    std::ranges::push_heap(heap);
-    if (heap.size() > count) {
-      std::ranges::pop_heap(heap);
-      heap.pop_back();
-    }
-    if (heap.size() == count) limit = heap.front().first;
   }
 };
 
@@ -77,6 +51,7 @@ class BlockIndexSearch {
  public:
   using Data = BlockIndexData<Sample>;
   using Sum = SquaredSum<Sample>;
+  using Found = BestBlock<Sum>;
 
   BlockIndexSearch(const Data& index, const BlockQuery<Sample>& query)
       : index_(index), kernels_(kernels::kernels()) {
@@ -128,7 +103,6 @@ class BlockIndexSearch {
 
   const BlockSum<Sample>& sums(int source) const { return sumStore_[sums_[source]]; }
 
-  template <class Found>
   void offer(std::uint32_t position, Found& found) {
     const int s = index_.sourceOf(position);
     const IndexedSource<Sample>& source = index_.sources[s];
@@ -141,15 +115,13 @@ class BlockIndexSearch {
     }
   }
 
-  template <class Found>
   void run(Found& found) {
     updateBound(found.limit);
-    if constexpr (Found::kOne)
-      if (bound_ == kernels::kLargestBound) {
-        addBox(likelyEntry(index_.tree, features_), 0);
-        workOnBoxes(found);
-      }
-    Visitor<Found> visitor{*this, found};
+    if (bound_ == kernels::kLargestBound) {
+      addBox(likelyEntry(index_.tree, features_), 0);
+      workOnBoxes(found);
+    }
+    Visitor visitor{*this, found};
     FeatureTreeSearch(index_.tree, features_, visitor).run();
     if (budget_ < 0) scan(found);
   }
@@ -158,7 +130,6 @@ class BlockIndexSearch {
 
  private:
   // What the tree's search asks and finds.
-  template <class Found>
   struct Visitor {
     BlockIndexSearch& search;
     Found& found;
@@ -190,7 +161,6 @@ class BlockIndexSearch {
           static_cast<std::uint64_t>(std::min(bound(*index_.fineFeatures), kLargestFineBound));
   }
 
-  template <class Found>
   void workOnBoxes(Found& found) {
     // The nearest first, of equals the lowest: each may lower the limit for those behind it.
     std::pair<std::uint64_t, int> nearest[kWide * kWide];
@@ -231,7 +201,6 @@ class BlockIndexSearch {
     }
   }
 
-  template <class Found>
   void searchBox(const Box& box, Found& found) {
     ++statistics_.boxes;
     budget_ -= Work::kBox;
@@ -307,12 +276,10 @@ class BlockIndexSearch {
     return within;
   }
 
-  template <class Found>
   void scan(Found& found) {
     statistics_.scanned = true;
     // From the start, for ties go to the lowest index; what was found before is a limit and found
     // again.
-    if constexpr (requires { found.heap; }) found.heap.clear();
     for (std::size_t s = 0; s < index_.sources.size(); ++s) {
       const IndexedSource<Sample>& source = index_.sources[s];
       for (int k = 0; k < source.positions.z; ++k)
@@ -357,39 +324,6 @@ class BlockIndexSearch {
 
 namespace {
 
-// Positions whose blocks equal the one at `position`, itself first, at most `count`, by rising
-// index.
-template <class Sample>
-std::vector<std::uint32_t> equalBlocks(const BlockIndexData<Sample>& index, std::uint32_t position,
-                                       std::size_t count) {
-  const IndexedSource<Sample>& source = index.sources[index.sourceOf(position)];
-  const auto same = [&](const Vec3i& a, const Vec3i& b) {
-    for (int k = 0; k < index.block.z; ++k)
-      for (int j = 0; j < index.block.y; ++j)
-        for (int i = 0; i < index.block.x; ++i) {
-          const Vec3i o{i, j, k};
-          if (source.samples[a + o] != source.samples[b + o]) return false;
-        }
-    return true;
-  };
-  std::vector<std::uint32_t> found;
-  std::set<std::uint32_t> open{position};
-  while (!open.empty() && found.size() < count) {
-    const std::uint32_t at = *open.begin();
-    open.erase(open.begin());
-    found.push_back(at);
-    const Vec3i p = source.samples.ijk(at - source.offset);
-    for (int axis = 0; axis < 3; ++axis) {
-      Vec3i next = p;
-      if (++next[axis] >= source.positions[axis]) continue;
-      const auto n = static_cast<std::uint32_t>(source.offset + source.samples.index(next));
-      // Only positions that were left out can be repeats.
-      if (!index.live[n] && index.allowed(n) && !open.contains(n) && same(p, next)) open.insert(n);
-    }
-  }
-  return found;
-}
-
 template <class Sample>
 BlockMatch matchAt(const BlockIndexData<Sample>& index, const BlockSum<Sample>& sums,
                    SquaredSum<Sample> sum, std::uint32_t position) {
@@ -398,28 +332,11 @@ BlockMatch matchAt(const BlockIndexData<Sample>& index, const BlockSum<Sample>& 
   return {source.samples.ijk(position - source.offset), sums.distance(sum), s};
 }
 
-// What was found, with all blocks that equal one of those, nearest first.
-template <class Sample, class Sum>
-std::vector<BlockMatch> collect(const BlockIndexData<Sample>& index, const BlockSum<Sample>& sums,
-                                const NearestBlocks<Sum>& found) {
-  std::vector<std::pair<Sum, std::uint32_t>> all;
-  for (const auto& [sum, position] : found.heap)
-    for (std::uint32_t equal : equalBlocks<Sample>(index, position, found.count))
-      all.emplace_back(sum, equal);
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  if (all.size() > found.count) all.resize(found.count);
-  std::vector<BlockMatch> matches;
-  for (const auto& [sum, position] : all)
-    matches.push_back(matchAt<Sample>(index, sums, sum, position));
-  return matches;
-}
-
 }  // namespace
 
 template <class Sample>
 BlockIndex<Sample>::BlockIndex(std::vector<Array3D<Sample>> sources, const Vec3i& block,
-                               const BlockIndexOptions& options) {
+                               const BlockIndexOptions& options, const Progress& progress) {
   if (sources.empty()) throw InputError("a block index needs at least one source");
   auto data = std::make_unique<BlockIndexData<Sample>>();
   data->block = block;
@@ -427,20 +344,20 @@ BlockIndex<Sample>::BlockIndex(std::vector<Array3D<Sample>> sources, const Vec3i
     data->sources.emplace_back();
     data->sources.back().samples = std::move(source);
   }
-  data->build(options);
+  data->build(options, progress);
   data_ = std::move(data);
 }
 
 template <class Sample>
 BlockIndex<Sample>::BlockIndex(Array3D<Sample> source, const Vec3i& block,
-                               const BlockIndexOptions& options)
+                               const BlockIndexOptions& options, const Progress& progress)
     : BlockIndex(
           [&] {
             std::vector<Array3D<Sample>> sources;
             sources.push_back(std::move(source));
             return sources;
           }(),
-          block, options) {}
+          block, options, progress) {}
 
 template <class Sample>
 BlockIndex<Sample>::BlockIndex(BlockIndex&&) noexcept = default;
@@ -468,37 +385,6 @@ BlockMatch BlockIndex<Sample>::findBest(const BlockQuery<Sample>& query,
   if (statistics) *statistics = search.statistics_;
   const int s = data_->sourceOf(found.position);
   return matchAt<Sample>(*data_, search.sums(s), found.limit, found.position);
-}
-
-template <class Sample>
-std::vector<BlockMatch> BlockIndex<Sample>::findNearest(const BlockQuery<Sample>& query, int count,
-                                                        BlockIndexStatistics* statistics) const {
-  if (count < 1) throw InputError("the number of blocks to find must be at least 1");
-  BlockIndexSearch<Sample> search(*data_, query);
-  NearestBlocks<SquaredSum<Sample>> found{static_cast<std::size_t>(count)};
-  search.run(found);
-  if (statistics) *statistics = search.statistics_;
-  return collect<Sample>(*data_, search.sums(0), found);
-}
-
-template <class Sample>
-std::vector<BlockMatch> BlockIndex<Sample>::findWithin(const BlockQuery<Sample>& query,
-                                                       double tolerance, int limit,
-                                                       BlockIndexStatistics* statistics) const {
-  using Sum = SquaredSum<Sample>;
-  if (!(tolerance >= 0)) throw InputError("the tolerance of a match must be at least 0");
-  if (limit < 1) throw InputError("the number of blocks to find must be at least 1");
-  BlockIndexSearch<Sample> first(*data_, query);
-  BestBlock<Sum> best;
-  first.run(best);
-  BlockIndexSearch<Sample> search(*data_, query);
-  NearestBlocks<Sum> found{static_cast<std::size_t>(limit)};
-  found.limit =
-      static_cast<Sum>(std::min(static_cast<double>(best.limit) * (1 + tolerance),
-                                static_cast<double>(std::numeric_limits<std::int64_t>::max() / 2)));
-  search.run(found);
-  if (statistics) *statistics = search.statistics_;
-  return collect<Sample>(*data_, search.sums(0), found);
 }
 
 template <class Sample>

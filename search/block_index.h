@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/progress.h"
 #include "search/block_match.h"
 
 namespace exemplar {
@@ -33,9 +34,9 @@ struct BlockIndexStatistics {
   bool scanned = false;     ///< the bounds did not pay: the rest was a linear scan
 };
 
-/// An exact index of all blocks of one size in one or more sources: the nearest blocks to a query,
-/// also when only some of its samples are known. The answers are those of a linear scan, to the
-/// last bit.
+/// An exact index of all blocks of one size in one or more sources: the nearest block to a query,
+/// also when only some of its samples are known. The answer is that of a linear scan, to the last
+/// bit.
 ///
 /// A block is cut into eight cells. Four features of each, its mean and three more inner products
 /// with orthonormal polynomials, are a point in 32 dimensions; distances there never exceed
@@ -48,31 +49,23 @@ class BlockIndex {
  public:
   /// Takes the sources; `block` is any box that fits into all of them. About 9 to 12 bytes a sample
   /// beyond the sources with boxes of side 2, about 50 bytes a position with side 1. Parallel,
-  /// deterministic. Throws `InputError` when a block does not fit, nothing is allowed, or memory
-  /// does not suffice.
+  /// deterministic; seconds for 256³ samples. Throws `InputError` when a block does not fit, no
+  /// position is allowed, or memory does not suffice, and `Cancelled`.
   BlockIndex(std::vector<Array3D<Sample>> sources, const Vec3i& block,
-             const BlockIndexOptions& options = {});
-  BlockIndex(Array3D<Sample> source, const Vec3i& block, const BlockIndexOptions& options = {});
+             const BlockIndexOptions& options = {}, const Progress& progress = {});
+  BlockIndex(Array3D<Sample> source, const Vec3i& block, const BlockIndexOptions& options = {},
+             const Progress& progress = {});
   BlockIndex(BlockIndex&&) noexcept;
   BlockIndex& operator=(BlockIndex&&) noexcept;
   ~BlockIndex();
 
   /// The nearest block; ties by lowest source, then lowest index.
   ///
-  /// `hints` are positions that are likely to be near (the neighbour's match, moved along); they
+  /// `hints` are positions that are likely to be near (the neighbor's match, moved along); they
   /// make the search faster and never change its answer. Those that are outside or not allowed are
   /// ignored.
   BlockMatch findBest(const BlockQuery<Sample>& query, std::span<const BlockMatch> hints = {},
                       BlockIndexStatistics* statistics = nullptr) const;
-
-  /// The `count` nearest blocks, nearest first, fewer where there are fewer.
-  std::vector<BlockMatch> findNearest(const BlockQuery<Sample>& query, int count,
-                                      BlockIndexStatistics* statistics = nullptr) const;
-
-  /// All blocks at up to (1 + `tolerance`) times the smallest distance, nearest first; the first
-  /// `limit` of them.
-  std::vector<BlockMatch> findWithin(const BlockQuery<Sample>& query, double tolerance, int limit,
-                                     BlockIndexStatistics* statistics = nullptr) const;
 
   const Vec3i& block() const;
   int sources() const;

@@ -188,12 +188,15 @@ int BlockIndexData<Sample>::cellArray(int cell) const {
 }
 
 template <class Sample>
-typename BlockIndexData<Sample>::CellArrays BlockIndexData<Sample>::cellNumbers() const {
+typename BlockIndexData<Sample>::CellArrays BlockIndexData<Sample>::cellNumbers(
+    const Progress& progress) const {
   CellArrays arrays(sources.size());
   for (std::size_t s = 0; s < sources.size(); ++s)
     for (int c = 0; c < 8; ++c)
-      if (layout->there(c) && cellArray(c) == c)
+      if (layout->there(c) && cellArray(c) == c) {
+        progress.check();
         arrays[s][c] = features->ofSource(sources[s].samples, layout->size[c]);
+      }
   return arrays;
 }
 
@@ -205,7 +208,7 @@ void BlockIndexData<Sample>::ranges(const CellArrays& cells, std::uint32_t entry
   const Vec3i first = source.samples.ijk(entry - source.offset);
   std::fill_n(low, FeatureTree::kFeatures, std::int16_t{32767});
   std::fill_n(high, FeatureTree::kFeatures, std::int16_t{0});
-  // Where the features of each cell stand among a block's.
+  // The index of each cell's features among a block's.
   const auto place = [](int cell, int f) {
     return f == 0 ? cell : FeatureTree::kMeans + kernels::detail(cell, f - 1);
   };
@@ -296,7 +299,8 @@ void BlockIndexData<Sample>::packFineBricks(const std::vector<Array3D<Numbers>>&
 }
 
 template <class Sample>
-void BlockIndexData<Sample>::build(const BlockIndexOptions& options) {
+void BlockIndexData<Sample>::build(const BlockIndexOptions& options, const Progress& progress) {
+  progress.report("indexing blocks", 0);
   findPositions(options);
   if (options.boxSide < 0 || options.boxSide > 2)
     throw InputError("the box side of a block index must be 1, 2, or 0 for automatic");
@@ -316,7 +320,9 @@ void BlockIndexData<Sample>::build(const BlockIndexOptions& options) {
   }
   layout.emplace(block, side > 1);
   features.emplace(*layout, std::span<const Array3D<Sample>* const>(arrays), low, high);
-  CellArrays cells = cellNumbers();
+  progress.report("indexing blocks", 0.1);
+  CellArrays cells = cellNumbers(progress);
+  progress.report("indexing blocks", 0.3);
 
   // One entry for each box that has a live position.
   std::vector<std::uint32_t> entries;
@@ -336,8 +342,12 @@ void BlockIndexData<Sample>::build(const BlockIndexOptions& options) {
         }
   tree = FeatureTree(
       entries,
-      [&](std::uint32_t entry, std::int16_t* l, std::int16_t* h) { ranges(cells, entry, l, h); },
+      [&](std::uint32_t entry, std::int16_t* l, std::int16_t* h) {
+        progress.check();
+        ranges(cells, entry, l, h);
+      },
       features->margin());
+  progress.report("indexing blocks", 0.8);
 
   if (side == 2) {
     for (int c = 0; c < 8; ++c)

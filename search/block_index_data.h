@@ -49,7 +49,7 @@ struct BlockIndexData {
   std::vector<IndexedSource<Sample>> sources;
   std::optional<CellLayout> layout;
   std::optional<CellFeatures> features;
-  Vec3d slopes;        // largest differences of neighbours along each axis
+  Vec3d slopes;        // largest differences of neighbors along each axis
   int brickShift = 0;  // of IndexedSource::bricks
   // Large blocks: each cell is cut into eight again, and these have features too.
   std::optional<CellLayout> fineLayout;
@@ -69,12 +69,12 @@ struct BlockIndexData {
   }
   bool allowed(std::uint32_t position) const { return allAllowed || allowedBits[position]; }
 
-  void build(const BlockIndexOptions& options);
+  void build(const BlockIndexOptions& options, const Progress& progress);
   void findPositions(const BlockIndexOptions& options);
   void measureSlopes();
   void dropRepeats(IndexedSource<Sample>& source);
   using CellArrays = std::vector<std::array<Array3D<CellFeatures::Numbers>, 8>>;
-  CellArrays cellNumbers() const;
+  CellArrays cellNumbers(const Progress& progress) const;
   /// The features of all cells, and of all their eighths, of each source, in bricks.
   void packBricks(const std::vector<Array3D<CellFeatures::Numbers>>& numbers);
   void packFineBricks(const std::vector<Array3D<CellFeatures::Numbers>>& numbers);

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "core/error.h"
-#include "search/block_sum.h"
 
 namespace exemplar {
 
@@ -40,18 +39,7 @@ std::int64_t knownSamples(const BlockQuery<Sample>& query) {
   return std::ranges::count_if(query.known.values(), [](std::uint8_t k) { return k != 0; });
 }
 
-template <class Sample>
-double blockDistance(const Array3D<Sample>& source, const Vec3i& position,
-                     const BlockQuery<Sample>& query) {
-  const BlockSum<Sample> rows(query, source.size());
-  return rows.distance(rows.sum(source.data() + source.index(position),
-                                std::numeric_limits<SquaredSum<Sample>>::max()));
-}
-
 template std::int64_t knownSamples(const BlockQuery<std::uint8_t>&);
 template std::int64_t knownSamples(const BlockQuery<float>&);
-template double blockDistance(const Array3D<std::uint8_t>&, const Vec3i&,
-                              const BlockQuery<std::uint8_t>&);
-template double blockDistance(const Array3D<float>&, const Vec3i&, const BlockQuery<float>&);
 
 }  // namespace exemplar

@@ -10,7 +10,7 @@
 
 /// The question that every search in this folder answers: given a block of samples of which only
 /// some are known, which block of a source is nearest? A source is any array of numbers; `Sample`
-/// is `std::uint8_t` (256 quantised levels: distances are exact integers over the count) or
+/// is `std::uint8_t` (256 quantized levels: distances are exact integers over the count) or
 /// `float`.
 namespace exemplar {
 
@@ -44,12 +44,5 @@ Vec3i blockPositions(const Vec3i& source, const Vec3i& block);
 /// The number of known samples. Throws `InputError` when `known` has not the size of `samples`.
 template <class Sample>
 std::int64_t knownSamples(const BlockQuery<Sample>& query);
-
-/// Equation 1 for one block of the source: the yardstick. Every search returns exactly this number
-/// for the block that it returns. Integers are summed exactly; squared differences of floats are
-/// summed in double in an order that depends on the query's size and mask alone.
-template <class Sample>
-double blockDistance(const Array3D<Sample>& source, const Vec3i& position,
-                     const BlockQuery<Sample>& query);
 
 }  // namespace exemplar

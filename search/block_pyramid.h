@@ -30,12 +30,12 @@
 ///     dist(finest level) ≤ dist(level of cells of r³) + ε,   ε = (2 s)² ≤ L² (r² − 1).
 ///
 /// One step (r = 2, in units of the finer level's spacing) has ε = 3 L². The paper's appendix A.2
-/// takes the squared distance of neighbours for a 1D step and adds a step's ε once a level, with
+/// takes the squared distance of neighbors for a 1D step and adds a step's ε once a level, with
 /// averages that it no longer constrains; here all levels are crossed at once, with the constraint
 /// in full.
 ///
 /// It holds for fields that are L-Lipschitz between all samples of a cell, in Euclidean distance.
-/// It does not hold for synthesized targets, noise or random seeding, and for quantised fields only
+/// It does not hold for synthesized targets, noise or random seeding, and for quantized fields only
 /// with the rounding counted in (each difference moves by up to one level). `cellDeviation`
 /// measures s instead of assuming it, and then equation 3 holds for any field.
 namespace exemplar {
@@ -47,13 +47,6 @@ int blockLevels(int blockSize);
 /// for two fields that change by at most `lipschitz` a sample's spacing: lipschitz² (cellSide² −
 /// 1).
 double lipschitzEpsilon(int cellSide, double lipschitz);
-
-/// One block's pyramid: element l - 1 is level l, of 2^(l-1) cells a side; the last is the block.
-/// Its side must be a power of two.
-std::vector<Array3D<double>> blockPyramid(const Array3D<double>& block);
-
-/// Equation 1 between two levels of the same size.
-double levelDistance(const Array3D<double>& a, const Array3D<double>& b);
 
 /// The globally subsampled field that all block pyramids are windows into (section 4.1): for each
 /// level and *each* position of a cell's first sample, the cell's average, rounded to one of 256

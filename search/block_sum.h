@@ -52,7 +52,7 @@ class BlockSum {
     std::vector<Value> value;           ///< kLanes a chunk; 0 where unknown
     std::vector<Value> mask;            ///< kLanes a chunk; all bits, or 1.0f, where known
     std::size_t count = 0;              ///< chunks
-    std::size_t whole = 0;              ///< the first so many have no unknown sample
+    std::size_t whole = 0;              ///< how many, from the first on, have no unknown sample
     int piece = kLanes;                 ///< samples
   };
 

@@ -128,7 +128,7 @@ CellFeatures::CellFeatures(const CellLayout& layout,
         const Vec3i degrees{total - y - z, y, z};
         if (min(degrees, cell - Vec3i{1, 1, 1}) == degrees) choices.push_back({degrees});
       }
-  const Random random(0, 0x6366);
+  const Random random(0, stream::kCellFeatures);
   const std::size_t draws =
       static_cast<std::size_t>(std::clamp(4e6 / static_cast<double>(volume(cell)), 64.0, 512.0));
   Array3D<double> samples(cell);
@@ -397,7 +397,7 @@ double meanShift(const Array3D<std::uint8_t>& known, const Vec3i& first, const V
   if (total == 0) return std::numeric_limits<double>::infinity();
 
   // The cost of turning even masses into these, along one line: what has to pass between
-  // neighbours.
+  // neighbors.
   const auto alongLine = [](const std::vector<double>& masses) {
     double sum = 0, cost = 0, passed = 0;
     for (double m : masses) sum += m;

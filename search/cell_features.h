@@ -56,7 +56,7 @@ class CellFeatures {
 
   /// The ranges in which the features of a block at distance 0 lie. Cells known in part say what
   /// their known samples' mean and the source's slopes leave possible of the whole mean: `slopes`
-  /// are the largest differences of neighbouring samples along each axis.
+  /// are the largest differences of neighboring samples along each axis.
   template <class Sample>
   kernels::QueryFeatures ofQuery(const BlockQuery<Sample>& query, const Vec3d& slopes) const;
 
@@ -72,7 +72,7 @@ class CellFeatures {
 };
 
 /// An upper bound on the difference between the mean of a field over a cell and over the cell's
-/// known samples, for a field whose neighbouring samples differ by at most `slopes` along x, y and
+/// known samples, for a field whose neighboring samples differ by at most `slopes` along x, y and
 /// z: the cost of moving the one distribution into the other, axis after axis (Knothe and
 /// Rosenblatt). Infinite where none is known.
 double meanShift(const Array3D<std::uint8_t>& known, const Vec3i& first, const Vec3i& size,

@@ -124,7 +124,7 @@ inline std::uint32_t likelyEntry(const FeatureTree& tree, const kernels::QueryFe
 ///   `hopeless(lowest)`: whether entries from this one on are of no interest;
 ///   `may(level, child, gap)`: whether a child may hold any that are;
 ///   `node()`: a node is about to be looked at; false ends the search;
-///   `leaves(count)`: so many leaves are about to be looked at;
+///   `leaves(count)`: `count` leaves are about to be looked at;
 ///   `add(entry, gap)`: an entry that is left;
 ///   `flush()`: now is the time to work on those that were added since the last time.
 ///

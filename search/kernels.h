@@ -18,7 +18,7 @@ constexpr int kMeans = 8;      ///< of a block: one of each cell
 constexpr int kDetails = 24;   ///< of a block: three of each cell
 constexpr int kSumLanes = 32;  ///< samples that are summed at once
 
-/// Where a cell's detail 0, 1 or 2 stands among a block's. Multiply-and-add takes neighbours in
+/// The index of a cell's detail 0, 1 or 2 among a block's. Multiply-and-add takes neighbors in
 /// pairs: each cell's first two are one, then come the third ones.
 constexpr int detail(int cell, int number) { return number < 2 ? 2 * cell + number : 16 + cell; }
 
@@ -27,20 +27,20 @@ constexpr std::int16_t kLargestGap = 8190;
 /// No sum of squared gaps is larger.
 constexpr std::uint32_t kLargestBound = 0x7fffffff;
 
-/// What a query says in each dimension: a range, 0..32767, and how much a gap to it weighs.
+/// What is known of a query in each dimension: a range, 0..32767, and how much a gap to it weighs.
 struct QueryFeatures {
   alignas(64) std::int16_t meanLow[kMeans];
   std::int16_t meanHigh[kMeans];
   std::uint16_t meanWeight[kMeans];  ///< of a gap, in 65536ths; where `weighted`
   alignas(64) std::int16_t detailLow[kDetails];
   std::int16_t detailHigh[kDetails];
-  std::uint8_t detailPair[kDetails / 2];  ///< the pairs that say anything
+  std::uint8_t detailPair[kDetails / 2];  ///< the pairs that are known
   int detailPairs;                        ///< how many
   bool weighted;
 };
 
 /// Sixteen boxes in the space of means: from `base + (low << shift)` to `base + (high << shift)`.
-/// Dimension d stands in pair d / 2, lane d % 2.
+/// Dimension d is in pair d / 2, lane d % 2.
 struct MeanBoxes {
   alignas(64) std::uint8_t low[kMeans / 2][kWide][2];
   std::uint8_t high[kMeans / 2][kWide][2];
@@ -48,7 +48,7 @@ struct MeanBoxes {
   std::uint8_t shift;
 };
 
-/// Sixteen boxes of one size: centre `base + (value << shift)`, plus or minus `width`.
+/// Sixteen boxes of one size: center `base + (value << shift)`, plus or minus `width`.
 template <int dimensions>
 struct Points {
   alignas(64) std::uint8_t value[dimensions / 2][kWide][2];
@@ -79,7 +79,7 @@ struct ByteScale {
   std::int16_t width[kFeatures];
 };
 
-/// The same, spelt out.
+/// The same, spelled out.
 struct BrickNumbers {
   alignas(64) std::int16_t number[8][kFeatures];
 };
@@ -90,7 +90,7 @@ struct SumChunks {
   const std::int16_t* value;    ///< kSumLanes a chunk; 0 where unknown
   const std::int16_t* mask;     ///< kSumLanes a chunk; all bits where known
   std::size_t count;            ///< chunks
-  std::size_t whole;            ///< the first so many have no unknown sample
+  std::size_t whole;            ///< how many, from the first on, have no unknown sample
   int piece;                    ///< 1, 2, 4, 8, 16 or 32 samples
 };
 

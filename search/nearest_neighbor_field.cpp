@@ -4,14 +4,14 @@
 #include "search/nearest_neighbor_field.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <utility>
 
+#include "core/cells.h"
 #include "core/error.h"
+#include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "search/block_match.h"
@@ -34,11 +34,11 @@ constexpr int kTile = 12;
 void check(const PatchSet& source, const PatchSet& target, const Channels& sourceChannels,
            const Channels& targetChannels, const NearestNeighborFieldOptions& options) {
   if (sourceChannels.size() != targetChannels.size())
-    throw InputError("source and target of a nearest-neighbour field differ in their channels");
+    throw InputError("source and target of a nearest-neighbor field differ in their channels");
   if (std::min({options.stride.x, options.stride.y, options.stride.z}) < 1)
-    throw InputError("the stride of a nearest-neighbour field must be at least 1");
+    throw InputError("the stride of a nearest-neighbor field must be at least 1");
   if (options.iterations < 1)
-    throw InputError("the iterations of a nearest-neighbour field must be at least 1");
+    throw InputError("the iterations of a nearest-neighbor field must be at least 1");
   if (options.allowed && options.allowed->size() != source.size())
     throw InputError("the mask of allowed positions differs in size from the source");
   if (options.sourceWeight) {
@@ -68,19 +68,21 @@ class Field {
     for (int axis = 0; axis < 3; ++axis) windowed_ = windowed_ || options.window[axis] >= 0;
     findAllowed();
     if (options.start && options.start->position.size() != shape_)
-      throw InputError("the start of a nearest-neighbour field has another shape");
+      throw InputError("the start of a nearest-neighbor field has another shape");
     if (options.wanted && (!options.start || options.wanted->size() != shape_))
       throw InputError("wanted patches need a start, and a mask of the field's shape");
   }
 
   NearestNeighborField run() {
-    const bool complete =
-        options_.method == NeighborMethod::Exact ? searchExactly() : searchByCoherence();
+    if (options_.method == NeighborMethod::Exact) {
+      searchExactly();
+    } else {
+      searchByCoherence();
+    }
     NearestNeighborField field;
     field.stride = options_.stride;
     field.position = Array3D<Vec3i>(shape_);
     field.distance = Array3D<float>(shape_);
-    field.complete = complete;
     for (std::size_t i = 0; i < best_.count(); ++i) {
       const Candidate& c = best_.data()[i];
       field.position.data()[i] = source_.position(c.index == kNone ? firstAllowed_ : c.index);
@@ -92,17 +94,14 @@ class Field {
 
  private:
   void findAllowed() {
-    const Vec3i positions = source_.positions();
-    for (int k = 0; k < positions.z; ++k)
-      for (int j = 0; j < positions.y; ++j)
-        for (int i = 0; i < positions.x; ++i)
-          if (!options_.allowed || (*options_.allowed)(i, j, k)) {
-            const std::uint32_t index = source_.index({i, j, k});
-            if (firstAllowed_ == kNone) firstAllowed_ = index;
-            if (options_.allowed) allowed_.push_back(index);
-          }
+    forEachCell(source_.positions(), [&](const Vec3i& p) {
+      if (options_.allowed && !(*options_.allowed)[p]) return;
+      const std::uint32_t index = source_.index(p);
+      if (firstAllowed_ == kNone) firstAllowed_ = index;
+      if (options_.allowed) allowed_.push_back(index);
+    });
     if (firstAllowed_ == kNone)
-      throw InputError("no source position of the nearest-neighbour field is allowed");
+      throw InputError("no source position of the nearest-neighbor field is allowed");
   }
 
   Vec3i patchPosition(const Vec3i& patch) const { return scaled(patch, options_.stride); }
@@ -141,29 +140,24 @@ class Field {
     if (sum <= limit && candidate.before(best)) best = candidate;
   }
 
-  // Cuts the target into tiles and works on them in parallel; false when cancelled.
+  // Cuts the target into tiles and works on them in parallel.
   template <class Work>
-  bool forTiles(const char* stage, double from, double to, const Work& work) {
+  void forTiles(double from, double to, const Work& work) {
     const Vec3i tiles{(shape_.x + kTile - 1) / kTile, (shape_.y + kTile - 1) / kTile,
                       (shape_.z + kTile - 1) / kTile};
     const std::size_t count = static_cast<std::size_t>(volume(tiles));
-    std::atomic<std::size_t> done = 0;
-    std::mutex reporting;
+    LoopProgress done(progress_.part(from, to), "matching", count);
     parallelFor(0, count, 1, [&](std::size_t begin, std::size_t end) {
       std::vector<float> gathered(target_.gatheredLength());
       for (std::size_t t = begin; t < end; ++t) {
-        if (progress_.cancelled()) return;
+        done.check();
         const Vec3i tile{static_cast<int>(t % tiles.x), static_cast<int>(t / tiles.x % tiles.y),
                          static_cast<int>(t / tiles.x / tiles.y)};
         const Vec3i first = tile * kTile;
-        work(first, min(first + Vec3i{kTile, kTile, kTile}, shape_), gathered.data());
-        const std::size_t finished = ++done;
-        const std::lock_guard lock(reporting);
-        progress_.report(
-            stage, from + (to - from) * static_cast<double>(finished) / static_cast<double>(count));
+        work(CellBox{first, min(first + Vec3i{kTile, kTile, kTile}, shape_)}, gathered.data());
+        done.advance();
       }
     });
-    return !progress_.cancelled();
   }
 
   bool wanted(const Vec3i& patch) const { return !options_.wanted || (*options_.wanted)[patch]; }
@@ -182,37 +176,36 @@ class Field {
     if (options_.start) offer(gathered, options_.start->position[patch], window, best);
   }
 
-  bool searchExactly() {
+  void searchExactly() {
+    progress_.report("matching", 0);
     const PatchTree tree(source_, {options_.allowed, options_.sourceWeight, windowed_});
     const float norm = target_.largestNorm(tree.center());
-    return forTiles("matching", 0, 1, [&](const Vec3i& first, const Vec3i& last, float* gathered) {
-      for (int k = first.z; k < last.z; ++k)
-        for (int j = first.y; j < last.y; ++j)
-          for (int i = first.x; i < last.x; ++i) {
-            const Vec3i patch{i, j, k};
-            const std::uint32_t index = target_.index(patchPosition(patch));
-            target_.gather(index, gathered);
-            if (!wanted(patch)) {
-              keepStart(gathered, patch, best_[patch]);
-              continue;
-            }
-            const kernels::QueryFeatures features = tree.features(target_, index, norm);
-            const Window limits = window(patch);
-            Candidate best = kNothing;
-            // The neighbours' matches, moved along, are first upper bounds.
-            for (int axis = 0; axis < 3; ++axis) {
-              Vec3i before = patch;
-              if (--before[axis] < first[axis]) continue;
-              Vec3i p = source_.position(best_[before].index);
-              p[axis] += options_.stride[axis];
-              offer(gathered, p, limits, best);
-            }
-            offerStart(gathered, patch, limits, best);
-            best = tree.nearest(gathered, features, best, windowed_ ? &limits : nullptr);
-            // A window without an allowed position does not count.
-            if (best.index == kNone) best = tree.nearest(gathered, features, best, nullptr);
-            best_[patch] = best;
-          }
+    forTiles(0, 1, [&](const CellBox& tile, float* gathered) {
+      forEachCell(tile, [&](const Vec3i& patch) {
+        if (patch.x == tile.begin.x) progress_.check();
+        const std::uint32_t index = target_.index(patchPosition(patch));
+        target_.gather(index, gathered);
+        if (!wanted(patch)) {
+          keepStart(gathered, patch, best_[patch]);
+          return;
+        }
+        const kernels::QueryFeatures features = tree.features(target_, index, norm);
+        const Window limits = window(patch);
+        Candidate best = kNothing;
+        // The neighbors' matches, moved along, are first upper bounds.
+        for (int axis = 0; axis < 3; ++axis) {
+          Vec3i before = patch;
+          if (--before[axis] < tile.begin[axis]) continue;
+          Vec3i p = source_.position(best_[before].index);
+          p[axis] += options_.stride[axis];
+          offer(gathered, p, limits, best);
+        }
+        offerStart(gathered, patch, limits, best);
+        best = tree.nearest(gathered, features, best, windowed_ ? &limits : nullptr);
+        // A window without an allowed position does not count.
+        if (best.index == kNone) best = tree.nearest(gathered, features, best, nullptr);
+        best_[patch] = best;
+      });
     });
   }
 
@@ -220,75 +213,67 @@ class Field {
   // doi:10.1145/1531326.1531330. Within a tile propagation is sequential as there; from other tiles
   // it takes the previous round's matches, so that tiles are independent and the threads do not
   // matter.
-  bool searchByCoherence() {
-    const Random random(options_.seed, 0x706d);
+  void searchByCoherence() {
+    const Random random(options_.seed, stream::kPatchMatch);
     const Vec3i positions = source_.positions();
     const int widest = std::max({positions.x, positions.y, positions.z});
     const auto cell = [&](const Vec3i& patch) {
       return static_cast<std::uint64_t>(best_.index(patch));
     };
-    bool going =
-        forTiles("matching", 0, 0.1, [&](const Vec3i& first, const Vec3i& last, float* gathered) {
-          for (int k = first.z; k < last.z; ++k)
-            for (int j = first.y; j < last.y; ++j)
-              for (int i = first.x; i < last.x; ++i) {
-                const Vec3i patch{i, j, k};
-                target_.gather(target_.index(patchPosition(patch)), gathered);
-                if (!wanted(patch)) {
-                  keepStart(gathered, patch, best_[patch]);
-                  continue;
-                }
-                const Window limits = window(patch);
-                Candidate best = kNothing;
-                offerStart(gathered, patch, limits, best);
-                for (std::uint32_t draw = 0; best.index == kNone && draw < 64; ++draw)
-                  offer(gathered, randomPosition(random, cell(patch), 3 * draw, limits), limits,
-                        best);
-                if (best.index == kNone) best = fallback(gathered, limits);
-                best_[patch] = best;
-              }
-        });
-    for (int round = 0; going && round < options_.iterations; ++round) {
+    forTiles(0, 0.1, [&](const CellBox& tile, float* gathered) {
+      forEachCell(tile, [&](const Vec3i& patch) {
+        target_.gather(target_.index(patchPosition(patch)), gathered);
+        if (!wanted(patch)) {
+          keepStart(gathered, patch, best_[patch]);
+          return;
+        }
+        const Window limits = window(patch);
+        Candidate best = kNothing;
+        offerStart(gathered, patch, limits, best);
+        for (std::uint32_t draw = 0; best.index == kNone && draw < 64; ++draw)
+          offer(gathered, randomPosition(random, cell(patch), 3 * draw, limits), limits, best);
+        if (best.index == kNone) best = fallback(gathered, limits);
+        best_[patch] = best;
+      });
+    });
+    for (int round = 0; round < options_.iterations; ++round) {
       const Array3D<Candidate> previous = best_;
       const int direction = round % 2 == 0 ? 1 : -1;
       const double from = 0.1 + 0.9 * round / options_.iterations;
-      going = forTiles(
-          "matching", from, from + 0.9 / options_.iterations,
-          [&](const Vec3i& first, const Vec3i& last, float* gathered) {
-            const Vec3i size = last - first;
-            for (int n = 0; n < size.x * size.y * size.z; ++n) {
-              Vec3i patch{n % size.x, n / size.x % size.y, n / size.x / size.y};
-              patch = direction > 0 ? first + patch : last - Vec3i{1, 1, 1} - patch;
-              if (!wanted(patch)) continue;
-              target_.gather(target_.index(patchPosition(patch)), gathered);
-              const Window limits = window(patch);
-              Candidate best = best_[patch];
-              for (int axis = 0; axis < 3; ++axis)
-                for (int side : {-1, 1}) {
-                  Vec3i neighbor = patch;
-                  neighbor[axis] += side;
-                  if (!best_.contains(neighbor)) continue;
-                  const bool inTile = neighbor[axis] >= first[axis] && neighbor[axis] < last[axis];
-                  // Those of this tile that come later have the previous round's match still.
-                  Vec3i p =
-                      source_.position(inTile ? best_[neighbor].index : previous[neighbor].index);
-                  p[axis] -= side * options_.stride[axis];
-                  offer(gathered, p, limits, best);
-                }
-              std::uint32_t draw = 1000 * static_cast<std::uint32_t>(round + 1);
-              for (int radius = widest; radius >= 1; radius /= 2, draw += 3) {
-                const Vec3i around = source_.position(best.index);
-                Window near{max(limits.first, around - Vec3i{radius, radius, radius}),
-                            min(limits.last, around + Vec3i{radius, radius, radius})};
-                // A match outside the window (there was none inside) has no neighbourhood in it.
-                if (min(near.first, near.last) != near.first) break;
-                offer(gathered, uniform(random, cell(patch), draw, near), limits, best);
-              }
-              best_[patch] = best;
+      forTiles(from, from + 0.9 / options_.iterations, [&](const CellBox& tile, float* gathered) {
+        const Vec3i first = tile.begin, last = tile.end;
+        const Vec3i size = last - first;
+        for (int n = 0; n < size.x * size.y * size.z; ++n) {
+          Vec3i patch{n % size.x, n / size.x % size.y, n / size.x / size.y};
+          patch = direction > 0 ? first + patch : last - Vec3i{1, 1, 1} - patch;
+          if (!wanted(patch)) continue;
+          target_.gather(target_.index(patchPosition(patch)), gathered);
+          const Window limits = window(patch);
+          Candidate best = best_[patch];
+          for (int axis = 0; axis < 3; ++axis)
+            for (int side : {-1, 1}) {
+              Vec3i neighbor = patch;
+              neighbor[axis] += side;
+              if (!best_.contains(neighbor)) continue;
+              const bool inTile = neighbor[axis] >= first[axis] && neighbor[axis] < last[axis];
+              // Those of this tile that come later have the previous round's match still.
+              Vec3i p = source_.position(inTile ? best_[neighbor].index : previous[neighbor].index);
+              p[axis] -= side * options_.stride[axis];
+              offer(gathered, p, limits, best);
             }
-          });
+          std::uint32_t draw = 1000 * static_cast<std::uint32_t>(round + 1);
+          for (int radius = widest; radius >= 1; radius /= 2, draw += 3) {
+            const Vec3i around = source_.position(best.index);
+            Window near{max(limits.first, around - Vec3i{radius, radius, radius}),
+                        min(limits.last, around + Vec3i{radius, radius, radius})};
+            // A match outside the window (there was none inside) has no neighborhood in it.
+            if (min(near.first, near.last) != near.first) break;
+            offer(gathered, uniform(random, cell(patch), draw, near), limits, best);
+          }
+          best_[patch] = best;
+        }
+      });
     }
-    return going;
   }
 
   static Vec3i uniform(const Random& random, std::uint64_t cell, std::uint32_t draw,

@@ -13,8 +13,8 @@
 namespace exemplar {
 
 /// Several quantities sampled on the same grid (a distance and its gradient, say): arrays of one
-/// size. Differences are summed over channels, so scale each by the weight it shall have (by its
-/// square root).
+/// size. Differences are summed over channels, so scale each by the weight that it should have (by
+/// its square root).
 using Channels = std::vector<Array3D<float>>;
 
 /// For each patch of a target its nearest patch of a source.
@@ -24,7 +24,6 @@ struct NearestNeighborField {
   /// Mean over samples (sum over channels) of the squared differences: equation 1. Without
   /// `sourceWeight`.
   Array3D<float> distance;
-  bool complete = true;  ///< false when cancelled
 };
 
 enum class NeighborMethod {
@@ -61,10 +60,10 @@ struct NearestNeighborFieldOptions {
   std::uint64_t seed = 0;  ///< PatchMatch
 };
 
-/// The nearest-neighbour field of `target` in `source`. The same bytes at any number of threads.
+/// The nearest-neighbor field of `target` in `source`. The same bytes at any number of threads.
 /// Exact costs O(target patches × source patches × patch) at the very worst, usually a small part
-/// of it. Throws `InputError` for options out of range, channels of different sizes or numbers,
-/// nothing allowed.
+/// of it. Throws `InputError` for options out of range, channels of different sizes or numbers, and
+/// where no position is allowed, and `Cancelled`.
 NearestNeighborField nearestNeighborField(const Channels& source, const Channels& target,
                                           const NearestNeighborFieldOptions& options = {},
                                           const Progress& progress = {});

@@ -81,14 +81,14 @@ EXEMPLAR_MULTIVERSION void projectPatch(const float* values, const std::uint32_t
 }  // namespace
 
 PatchSet::PatchSet(const Channels& channels, const Vec3i& patch) : patch_(patch) {
-  if (channels.empty()) throw InputError("a nearest-neighbour field needs at least one channel");
+  if (channels.empty()) throw InputError("a nearest-neighbor field needs at least one channel");
   size_ = channels[0].size();
   blockPositions(size_, patch);
   if (static_cast<double>(channels.size()) * static_cast<double>(channels[0].count()) > 0x1p31)
-    throw InputError("the channels of a nearest-neighbour field have more than 2^31 samples");
+    throw InputError("the channels of a nearest-neighbor field have more than 2^31 samples");
   for (const auto& channel : channels) {
     if (channel.size() != size_)
-      throw InputError("the channels of a nearest-neighbour field differ in size");
+      throw InputError("the channels of a nearest-neighbor field differ in size");
     values_.insert(values_.end(), channel.values().begin(), channel.values().end());
   }
   width_ = (static_cast<std::size_t>(patch.x) + kLanes - 1) / kLanes * kLanes;
@@ -280,7 +280,7 @@ void PatchTree::findDirections(std::span<const std::uint32_t> points) {
   // orthonormal directions keep the search exact; good ones make it fast.
   const std::size_t terms = static_cast<std::size_t>(set_.terms());
   const std::size_t count = std::min<std::size_t>(points.size(), 2048);
-  const Random random(0, 0x7063);
+  const Random random(0, stream::kPatchFeatures);
   std::vector<double> samples(count * terms);
   {
     std::vector<float> gathered(set_.gatheredLength());

@@ -66,7 +66,7 @@ struct PatchChoice {
   bool windowed = false;
 };
 
-/// An exact nearest-neighbour index of a set's patches.
+/// An exact nearest-neighbor index of a set's patches.
 ///
 /// Patches are projected on 32 orthonormal directions, the leading principal components of the set.
 /// By Bessel's inequality projected distances never exceed the patches' own, as equation 2 of Lagae

@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -57,30 +58,32 @@ struct SearchTree::Deviations {
 // Sorts the blocks by their paths and makes a node wherever paths part.
 class TreeBuilder {
  public:
-  explicit TreeBuilder(SearchTree& tree)
-      : tree_(tree), source_(tree.pyramid_->averages(0)), path_(*tree.path_) {}
+  TreeBuilder(SearchTree& tree, const Progress& progress)
+      : tree_(tree), progress_(progress), source_(tree.pyramid_->averages(0)), path_(*tree.path_) {}
 
   void build() {
     nameBlocks();
     const Vec3i positions = blockPositions(source_.size(), cube(tree_.blockSize_));
     auto& order = tree_.order_;
     order.reserve(static_cast<std::size_t>(volume(positions)));
-    for (int k = 0; k < positions.z; ++k)
-      for (int j = 0; j < positions.y; ++j)
-        for (int i = 0; i < positions.x; ++i)
-          order.push_back(static_cast<std::uint32_t>(source_.index(i, j, k)));
+    forEachCell(positions, [&](const Vec3i& p) {
+      order.push_back(static_cast<std::uint32_t>(source_.index(p)));
+    });
     scratch_.resize(order.size());
     // The root holds all blocks and shares no cell.
     tree_.nodes_.push_back({0, static_cast<std::uint32_t>(order.size()), 0, 0, 0, 0});
     // Nodes are finished in the order in which they were made: no recursion.
-    for (std::size_t n = 0; n < tree_.nodes_.size(); ++n) finish(n);
+    for (std::size_t n = 0; n < tree_.nodes_.size(); ++n) {
+      progress_.check();
+      finish(n);
+    }
   }
 
   static Vec3i cube(int side) { return {side, side, side}; }
 
  private:
   // Gives equal blocks equal names, by naming cubes of 1, 2, 4, ... samples from the names of their
-  // eight parts (Karp, Miller, Rosenberg 1972): the lowest index at which such a cube stands.
+  // eight parts (Karp, Miller, Rosenberg 1972): the lowest index at which such a cube is found.
   // Exact.
   void nameBlocks() {
     const Vec3i size = source_.size();
@@ -94,7 +97,8 @@ class TreeBuilder {
       table.assign(std::bit_ceil(static_cast<std::size_t>(volume(positions)) * 2), kFree);
       std::vector<std::uint32_t> named(names_.size());
       for (int k = 0; k < positions.z; ++k)
-        for (int j = 0; j < positions.y; ++j)
+        for (int j = 0; j < positions.y; ++j) {
+          progress_.check();
           for (int i = 0; i < positions.x; ++i) {
             const std::size_t at = source_.index(i, j, k);
             std::uint64_t hash = 0;
@@ -108,6 +112,7 @@ class TreeBuilder {
             if (table[slot] == kFree) table[slot] = static_cast<std::uint32_t>(at);
             named[at] = table[slot];
           }
+        }
       names_ = std::move(named);
     }
   }
@@ -154,12 +159,15 @@ class TreeBuilder {
   static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
 
   SearchTree& tree_;
+  const Progress& progress_;
   const Array3D<std::uint8_t>& source_;
   const SearchTree::Path& path_;
   std::vector<std::uint32_t> names_, scratch_;
 };
 
-SearchTree::SearchTree(Array3D<std::uint8_t> source, int blockSize) : blockSize_(blockSize) {
+SearchTree::SearchTree(Array3D<std::uint8_t> source, int blockSize, const Progress& progress)
+    : blockSize_(blockSize) {
+  progress.report("building the search tree", 0);
   blockLevels(blockSize);
   const auto blocks = volume(blockPositions(source.size(), TreeBuilder::cube(blockSize)));
   requireMemory(static_cast<double>(source.count()) * 30 + static_cast<double>(blocks) * 45,
@@ -171,7 +179,7 @@ SearchTree::SearchTree(Array3D<std::uint8_t> source, int blockSize) : blockSize_
   high_ = high;
   path_ = std::make_shared<const Path>(blockLevels(blockSize), 0, pyramid_->averages(0).size());
   deviations_ = std::make_shared<Deviations>();
-  TreeBuilder(*this).build();
+  TreeBuilder(*this, progress).build();
 }
 
 SearchTree SearchTree::dropLeaves(int levels) const {

@@ -7,13 +7,15 @@
 #include <memory>
 #include <vector>
 
+#include "core/progress.h"
 #include "search/block_match.h"
 #include "search/block_pyramid.h"
 
 namespace exemplar {
 
 /// When a queue entry may be dropped because another one is sure to hold something better (Lagae
-/// 2004, section 4.3, equation 3). The answer is the same; only the queue's size differs.
+/// 2004, section 4.3, equation 3). The answer is the same; only the queue's size differs. Synthesis
+/// does without (it saves memory, not time); the rest is here for comparison with the paper.
 enum class QueuePruning {
   None,
   Lipschitz,  ///< ε from `TreeSearchOptions::lipschitz`: right only where source and query keep
@@ -44,22 +46,22 @@ struct TreeSearchStatistics {
 /// The search tree of Lagae 2004 (section 4), as published.
 ///
 /// Every block's pyramid is a path from the root: level 1's average, then level 2's eight, and so
-/// on (each level in z-order, so that a cell's eight children are neighbours). Equal beginnings
+/// on (each level in z-order, so that a cell's eight children are neighbors). Equal beginnings
 /// share their path: nodes with identical levels are one node (4.1), and nodes that agree in a part
 /// of a level hang below a common parent that holds this part (4.4), so distances are evaluated
 /// incrementally. Nodes store no samples but refer into a `SlidingPyramid`. A search is best-first
 /// (4.3, figure 4): the queue is ordered by equation 2's lower bound.
 ///
-/// Differences from the paper: rounded averages count as the interval that they stand for, which
+/// Differences from the paper: rounded averages count as the interval that they represent, which
 /// keeps the search exact; queries may be masked (cells known in part count with what their average
 /// and the source's range of values leave possible); chains of nodes with one block below are not
 /// stored; ties go to the lowest index.
 class SearchTree {
  public:
   /// Blocks of `blockSize`³ samples; a power of two. About 30 bytes a block and 1 byte a sample and
-  /// level. Deterministic. Throws `InputError` when the block size is none, or larger than the
-  /// source.
-  SearchTree(Array3D<std::uint8_t> source, int blockSize);
+  /// level. Deterministic; by one thread. Throws `InputError` when the block
+  /// size is no power of two, or larger than the source, and `Cancelled`.
+  SearchTree(Array3D<std::uint8_t> source, int blockSize, const Progress& progress = {});
 
   /// The tree without its `levels` lowest levels (section 5.2): the tree of the source subsampled
   /// `levels` times by two, for blocks of blockSize / 2^levels samples a side. Positions stay those
@@ -74,7 +76,7 @@ class SearchTree {
 
   /// The lower bounds that a search gives to the nodes on the way from the root to the block at
   /// `position`, in order, in units of `BlockMatch::distance`; the last is that block's distance.
-  /// What the search rests on, open to inspection: they never decrease.
+  /// What the search rests on, for its tests to inspect: they never decrease.
   std::vector<double> boundsAlongPath(const BlockQuery<std::uint8_t>& query,
                                       const Vec3i& position) const;
 

@@ -86,7 +86,7 @@ const kFigures = {
   'seams.eikonal_residual': { label: 'Distance error', unit: '| |∇φ| − 1 |', from: 0 },
   'seams.eikonal_residual_example': { label: 'Distance error, example', unit: '| |∇φ| − 1 |', from: 0 },
 };
-/// The figures that are told first.
+/// The figures that are shown first.
 const kMain = [
   'likeness.lp_dense', 'likeness.coverage', 'likeness.occupancy_ratio', 'likeness.surface_ratio',
   'novelty.used_share', 'novelty.verbatim_run', 'seams.seam_jump_near_surface', 'seams.seam_share',
@@ -95,13 +95,13 @@ const kMain = [
 /// What is known of engines by the first word of their name; settings may follow after a colon.
 const kEngines = {
   blocks: { says: 'geometry synthesis by best-matching blocks', color: 0, mark: 'square' },
-  optimize: { says: 'geometry synthesis by patch optimisation', color: 1, mark: 'circle' },
+  optimize: { says: 'geometry synthesis by patch optimization', color: 1, mark: 'circle' },
   model: { says: 'model synthesis by adjacency', color: 2, mark: 'triangle' },
   overlap: { says: 'model synthesis on overlapping blocks', color: 3, mark: 'diamond' },
 };
 const kColors = 8;
 const styles = new Map();
-/// Gives each engine of a report a colour and a shape, its own where it has one.
+/// Gives each engine of a report a color and a shape, its own where it has one.
 function styleEngines(engines) {
   const free = [...Array(kColors).keys()].filter((c) => !engines.some((e) => kEngines[e] && kEngines[e].color === c));
   for (const engine of engines) {
@@ -114,7 +114,7 @@ const styleOf = (engine) => styles.get(engine) || { color: 1, mark: 'circle', sa
 const engineIndex = (engine) => styleOf(engine).color;
 const engineSays = (engine) => styleOf(engine).says;
 
-/// The sign of an engine about (x, y): colour and shape both tell it.
+/// The sign of an engine about (x, y): color and shape both show it.
 function sign(engine, x, y, r, attributes = {}) {
   const attrs = { class: `engine-${engineIndex(engine)}`, ...attributes };
   switch (styleOf(engine).mark) {
@@ -128,7 +128,7 @@ function signIcon(engine) {
   return h('svg', { class: 'sign', viewBox: '0 0 14 14', width: 14, height: 14, 'aria-hidden': 'true' }, sign(engine, 7, 7, 5));
 }
 
-/// The colour of a place of the example, as views show it (surface.js): shares of each side, 0..1.
+/// The color of a place of the example, as views show it (surface.js): shares of each side, 0..1.
 function sourceColor([x, y, z]) {
   const L = 0.48 + 0.34 * z, a = 0.30 * (x - 0.5), b = 0.30 * (y - 0.5);
   const l = (L + 0.3963377774 * a + 0.2158037573 * b) ** 3;
@@ -144,5 +144,5 @@ function sourceColor([x, y, z]) {
     return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
   }).join(' ')})`;
 }
-/// The colours of seam jumps, from none to most (surface.js).
+/// The colors of seam jumps, from none to most (surface.js).
 const kJumpColors = ['rgb(204 204 204)', 'rgb(250 217 112)', 'rgb(232 107 46)', 'rgb(168 18 82)', 'rgb(66 8 82)'];

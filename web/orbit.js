@@ -40,7 +40,7 @@ export function fitCamera(home, aspect, points) {
   };
 }
 
-/// Where a fitted camera stands after it was turned to `look`.
+/// Where a fitted camera is after it was turned to `look`.
 export function placeCamera(fit, look) {
   const { right, up, forward } = axesOf(look.azimuth, look.elevation);
   const distance = fit.distance / look.zoom;

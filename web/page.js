@@ -1,4 +1,4 @@
-// The page: reads the report that stands in it, and puts the sections together.
+// The page: reads the report that is in it, and puts the sections together.
 
 class Page {
   constructor(report) {
@@ -74,7 +74,7 @@ function card(page, board, run) {
 }
 
 function viewsSection(page, board) {
-  const grid = h('div', { class: 'views' }), key = h('div', { class: 'key-of-colours', 'aria-live': 'polite' });
+  const grid = h('div', { class: 'views' }), key = h('div', { class: 'key-of-colors', 'aria-live': 'polite' });
   const draw = () => {
     board.forget(grid);
     grid.replaceChildren(card(page, board, null), ...page.engines.map((engine) => {
@@ -85,7 +85,7 @@ function viewsSection(page, board) {
   const explain = () => {
     key.replaceChildren(legend(board));
     if (board.mode === 'jumps') {
-      key.firstChild.prepend(h('label', { class: 'field' }, 'Full colour at ',
+      key.firstChild.prepend(h('label', { class: 'field' }, 'Full color at ',
         h('select', { change: (event) => { board.jumpScale = Number(event.target.value); explain(); board.refresh(); } },
           [1, 2, 4, 8].map((v) => h('option', { value: v, selected: v === board.jumpScale }, `${v} voxels`)))));
     }
@@ -96,7 +96,7 @@ function viewsSection(page, board) {
   };
   const modes = { material: 'Material' };
   if (page.report.has_origins !== false) Object.assign(modes, { origins: 'Origins', jumps: 'Seam jump' });
-  // report.html#origins opens with these colours.
+  // report.html#origins opens with these colors.
   if (modes[location.hash.slice(1)]) board.mode = location.hash.slice(1);
   const turn = h('button', {
     type: 'button', class: 'turn', 'aria-pressed': 'false',
@@ -111,7 +111,7 @@ function viewsSection(page, board) {
       h('select', { id: 'seed', change: (event) => { page.seed = page.seeds[event.target.selectedIndex]; page.onSeed.forEach((f) => f()); } },
         page.seeds.map((seed) => h('option', { value: seed }, seed)))) : null,
     board.viewer ? [
-      Object.keys(modes).length > 1 && segments('Colour', modes, board.mode, (mode) => { board.mode = mode; explain(); board.refresh(); }),
+      Object.keys(modes).length > 1 && segments('Color', modes, board.mode, (mode) => { board.mode = mode; explain(); board.refresh(); }),
       segments('Scale', { same: 'One scale', fit: 'Fit each' }, 'same', (value) => { board.sameScale = value === 'same'; board.refresh(); }),
       h('span', { class: 'buttons', role: 'group', 'aria-label': 'View' },
         Object.keys(kViewNames).map((name) => h('button', { type: 'button', 'data-look': name, click: () => look(name) }, capital(name))), turn),
@@ -145,12 +145,12 @@ function wipeSection(page, board) {
   };
   page.onSeed.push(draw);
   draw();
-  return section('slider', 'Example against result', 'Left of the line stands the example, right of it the result, seen by one camera.', place);
+  return section('slider', 'Example against result', 'The example is left of the line, the result right of it, both seen by one camera.', place);
 }
 
 function marksSection(page) {
   const marked = page.report.runs.filter((run) => run.status === 'complete' && Array.isArray(run.marks));
-  const text = 'The places where a result shows most plainly that it was put together: seams at the surface that jump most, parts of the example that stand in the result at least twice as often as the average, and the largest parts copied as they are.';
+  const text = 'The places where a result shows most plainly that it was put together: seams at the surface that jump most, parts of the example that occur in the result at least twice as often as the average, and the largest parts copied as they are.';
   if (!marked.length) return section('marks', 'What shows', null, h('p', { class: 'quiet' }, 'Marks need the result’s origins, and there are none here.'));
   const shown = new Set(Object.keys(kMarks)), grid = h('div', { class: 'views' });
   const draw = () => {
@@ -257,7 +257,7 @@ async function copyText(text) {
 
 function tableSection(page, figures) {
   const place = h('div', { class: 'wide', tabindex: 0, role: 'region', 'aria-label': 'Table of figures' });
-  const told = h('span', { class: 'told', role: 'status' });
+  const copied = h('span', { class: 'status', role: 'status' });
   let every = false;
   const draw = () => {
     const [head, ...rows] = tableRows(page, figures, every);
@@ -273,7 +273,7 @@ function tableSection(page, figures) {
     click: async () => {
       const text = tableRows(page, figures, every).map((row) => row.map((cell) => String(cell).replace(/[\t\r\n]/g, ' ')).join('\t')).join('\n') + '\n';
       const done = await copyText(text);
-      told.textContent = done ? 'Copied, with tabs between columns.' : 'Copying is not allowed here; the table is selected instead.';
+      copied.textContent = done ? 'Copied, with tabs between columns.' : 'Copying is not allowed here; the table is selected instead.';
       if (!done) getSelection().selectAllChildren(place);
     },
   }, 'Copy table');
@@ -281,14 +281,14 @@ function tableSection(page, figures) {
   return section('table', 'Table', page.report.kind === 'comparison' ? 'Means over the complete runs ± their standard deviation, or every run by itself.' : null,
     h('div', { class: 'controls' },
       page.report.kind === 'comparison' ? segments('Rows', { means: 'Means', runs: 'Every run' }, 'means', (value) => { every = value === 'runs'; draw(); }) : null,
-      copy, told), place);
+      copy, copied), place);
 }
 
 function closing(page) {
-  const licence = document.getElementById('licence');
+  const license = document.getElementById('license');
   return h('footer', {},
     h('p', {}, `Made by exemplar ${page.report.version || ''}. This page is one file: it loads nothing, and shows what it holds.`),
-    licence ? h('details', {}, h('summary', {}, 'Views are drawn by three.js (MIT licence)'), h('pre', {}, licence.content.textContent)) : null);
+    license ? h('details', {}, h('summary', {}, 'Views are drawn by three.js (MIT license)'), h('pre', {}, license.content.textContent)) : null);
 }
 
 function build() {

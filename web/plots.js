@@ -90,7 +90,7 @@ function outcomes(engines, runs) {
       h('td', { 'data-label': 'memory' }, range(peaks, bytes)),
       h('td', { 'data-label': 'violations' }, violations.length
         ? [range(violations.map((run) => run.adjacency_violations), grouped),
-          pairs.length ? h('small', {}, `of ${range(pairs, grouped)} pairs of neighbours`) : null,
+          pairs.length ? h('small', {}, `of ${range(pairs, grouped)} pairs of neighbors`) : null,
           unknown.length && Math.max(...unknown) > 0 ? h('small', {}, `${range(unknown, (v) => `${Math.round(100 * v)} %`)} of the blocks are like none of the example’s`) : null]
         : 'not computed'));
   };

@@ -81,7 +81,7 @@ export async function unpackSurface(part) {
 
 export const kModes = ['material', 'origins', 'jumps'];
 
-// The colour of a place of the example, from its share of the way along each side: hue and
+// The color of a place of the example, from its share of the way along each side: hue and
 // saturation go around the ground plan, lightness up; OKLab (B. Ottosson, 2020). The legend says the
 // same in scripts, `sourceColor`.
 const kSourceColor = `
@@ -150,7 +150,7 @@ vec3 filmic(vec3 c) {
   float squeezed = 1.0 - 0.24 * 0.24 / (peak + 0.24 - 0.76);
   return mix(c * (squeezed / peak), vec3(squeezed), 1.0 - 1.0 / (0.15 * (peak - squeezed) + 1.0));
 }
-// Steps of one hue family from light to dark that also differ in grey; the legend's are the same.
+// Steps of one hue family from light to dark that also differ in gray; the legend's are the same.
 vec3 jumpColor(float t) {
   vec3 none = vec3(0.80), low = vec3(0.98, 0.85, 0.44), middle = vec3(0.91, 0.42, 0.18),
        high = vec3(0.66, 0.07, 0.32), most = vec3(0.26, 0.03, 0.32);
@@ -171,7 +171,7 @@ void main() {
   float roughness = mode == 0 ? max(vFinish.y, 0.08) : 0.9;
   float nl = max(dot(n, toKey), 0.0), nv = max(dot(n, v), 1e-3);
   vec3 around = mix(floorRadiance(0.5), floorSky, 0.5 + 0.5 * n.z);
-  // Light that comes back from what hides the sky is of the surface's own colour.
+  // Light that comes back from what hides the sky is of the surface's own color.
   vec3 open = vec3(sky) / (1.0 - 0.75 * base * (1.0 - sky));
   vec3 diffuse = keyLight * nl * key + around * open;
   vec3 color;
@@ -187,7 +187,7 @@ void main() {
             mirror * keyLight * (glint * nl * key);
     color = mix(color, base, vLook.a);
   } else {
-    // Enough shading to read the shape, little enough to read the colour.
+    // Enough shading to read the shape, little enough to read the color.
     float shade = dot(diffuse, vec3(0.333));
     color = base * (0.42 + 0.58 * min(shade, 1.15));
   }
@@ -210,7 +210,7 @@ void main() {
   gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0);
 }`;
 
-/// What all surfaces share: the light, which stands where it stood for the pictures.
+/// What all surfaces share: the light, which is where it was for the pictures.
 export function makeMaterials(key) {
   const toKey = new Vector3(...key).normalize();
   const toRim = new Vector3(-toKey.x, -toKey.y, 0.35).normalize();

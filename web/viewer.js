@@ -75,7 +75,7 @@ export class Viewer {
 
   /// Draws into a canvas what `views` says: each { loaded, look, frame, from, to }, the last two the
   /// shares of the canvas' width between which it shows. `mode`: a name of `kModes`; `jumpScale`: the
-  /// jump in voxels that has the last colour.
+  /// jump in voxels that has the last color.
   draw(canvas, views, { mode, jumpScale }) {
     if (this.lost) return;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);

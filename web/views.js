@@ -204,12 +204,12 @@ class Board {
   }
 }
 
-/// What the colours mean.
+/// What the colors mean.
 function legend(board) {
   const { page } = board;
   if (board.mode === 'origins') {
     const kCells = 9;
-    const plan = h('svg', { viewBox: '0 0 90 90', class: 'plan', 'shape-rendering': 'crispEdges', role: 'img', 'aria-label': 'colours of the ground plan' });
+    const plan = h('svg', { viewBox: '0 0 90 90', class: 'plan', 'shape-rendering': 'crispEdges', role: 'img', 'aria-label': 'colors of the ground plan' });
     for (let y = 0; y < kCells; ++y) {
       for (let x = 0; x < kCells; ++x) {
         plan.append(h('rect', { x: 10 * x, y: 80 - 10 * y, width: 10, height: 10, fill: sourceColor([x / 8, y / 8, 0.5]) }));
@@ -218,7 +218,7 @@ function legend(board) {
     const rise = h('span', { class: 'ramp upright', style: `background: linear-gradient(to top, ${[0, 0.5, 1].map((z) => sourceColor([0.5, 0.5, z])).join(', ')})` });
     return h('div', { class: 'legend' }, h('div', { class: 'axes' }, plan, h('small', {}, 'x →  ·  y ↑')),
       h('div', { class: 'axes' }, rise, h('small', {}, 'z')),
-      h('p', {}, h('b', {}, 'Origins. '), 'Each point has the colour of the place in the example that it was taken from; the example itself is the key. Where colours change at once, copied parts meet; a colour that comes back is a part that was used again. Dark grey: not known.'));
+      h('p', {}, h('b', {}, 'Origins. '), 'Each point has the color of the place in the example that it was taken from; the example itself is the key. Where colors change at once, copied parts meet; a color that comes back is a part that was used again. Dark gray: not known.'));
   }
   if (board.mode === 'jumps') {
     const m = board.jumpScale;
@@ -226,10 +226,10 @@ function legend(board) {
       h('div', { class: 'axes' }, h('span', { class: 'ramp', style: `background: linear-gradient(to right, ${kJumpColors.join(', ')})` }),
         h('div', { class: 'ends' }, [0, m / 4, m / 2, (3 * m) / 4].map((v) => h('span', {}, short(v))), h('span', {}, `≥ ${short(m)} voxels`))),
       h('p', {}, h('b', {}, 'Seam jump. '), 'Where copied parts meet, by how much the distance field steps aside from what either source says should follow, in voxels',
-        page.report.voxel_size ? ` (one is ${short(page.report.voxel_size)} world units)` : '', '. Grey: no seam.'));
+        page.report.voxel_size ? ` (one is ${short(page.report.voxel_size)} world units)` : '', '. Gray: no seam.'));
   }
   return h('div', { class: 'legend' }, h('p', {}, h('b', {}, 'Material. '),
-    `The example’s own colours and materials${page.report.has_origins === false ? '' : ', carried to the result through its origins'}. The light stands still and was gathered beforehand, as in the pictures.`));
+    `The example’s own colors and materials${page.report.has_origins === false ? '' : ', carried to the result through its origins'}. The light does not move; it was gathered beforehand, as in the pictures.`));
 }
 
 /// Radio buttons in a row.

@@ -4,13 +4,13 @@
 #include "preview/baked_light.h"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
-#include <atomic>
 #include <cmath>
 
 #include "core/error.h"
 #include "mesh/primitives.h"
+#include "tests/progress_checks.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -78,18 +78,21 @@ TEST(BakedLight, IsTheSameAtOneAndEightThreads) {
     const Vec3d d = normalized(Vec3d{std::sin(n * 1.0), std::cos(n * 1.7), std::sin(n * 0.3)});
     probes.push_back({d * (n % 2 ? 1.0 : 0.7), cast<float>(d)});
   }
-  std::vector<BakedLight> one, eight;
-  tbb::task_arena(1).execute([&] { one = bakeLight(mesh, probes); });
-  tbb::task_arena(8).execute([&] { eight = bakeLight(mesh, probes); });
-  EXPECT_EQ(one, eight);
-  EXPECT_NE(one[0], one[1]);
+  testing::expectSameAtAnyThreads([&] { return bakeLight(mesh, probes); });
+  const auto light = bakeLight(mesh, probes);
+  EXPECT_NE(light[0], light[1]);
 }
 
-TEST(BakedLight, StopsAndRefuses) {
+TEST(BakedLight, ReportsAndStops) {
+  const TriangleMesh mesh = makeSphere({0, 0, 0}, 1);
+  const std::vector<LightProbe> probes(4096, {{2, 0, 0}, {1, 0, 0}});
+  testing::expectReportsAndStops(
+      4, [&](const Progress& progress) { return bakeLight(mesh, probes, {.rays = 4}, progress); });
+}
+
+TEST(BakedLight, RefusesWhatIsOutOfRange) {
   const TriangleMesh mesh = makeSphere({0, 0, 0}, 1);
   const LightProbe probe{{2, 0, 0}, {1, 0, 0}};
-  const std::atomic<bool> cancel = true;
-  EXPECT_TRUE(bakeLight(mesh, {&probe, 1}, {}, Progress({}, &cancel)).empty());
   BakeOptions none;
   none.rays = 0;
   EXPECT_THROW(bakeLight(mesh, {&probe, 1}, none), InputError);

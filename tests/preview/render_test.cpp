@@ -5,13 +5,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
-#include <atomic>
 #include <cmath>
 
 #include "core/error.h"
 #include "mesh/primitives.h"
+#include "tests/progress_checks.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -75,7 +75,7 @@ TEST(Render, ASphereIsRound) {
       bottom = std::max(bottom, y);
     }
   }
-  // The silhouette's edge falls on a pixel or its neighbour on each side.
+  // The silhouette's edge falls on a pixel or its neighbor on each side.
   EXPECT_NEAR(right - left, bottom - top, 3);
   EXPECT_NEAR(right + left, image.width - 1, 3);
 }
@@ -115,9 +115,7 @@ TEST(Render, TheGroundCatchesAShadow) {
 
 TEST(Render, IsTheSameBytesAtOneAndEightThreads) {
   const TriangleMesh mesh = makeTorus({0, 0, 0}, {0, 0, 1}, 1, 0.4, 24, 12);
-  tbb::task_arena one(1), eight(8);
-  const auto run = [&] { return render(mesh, quick()).pixels; };
-  EXPECT_EQ(one.execute(run), eight.execute(run));
+  testing::expectSameAtAnyThreads([&] { return render(mesh, quick()).pixels; });
 }
 
 TEST(Render, OpenFlatTinyAndHugeMeshesAreShown) {
@@ -136,10 +134,10 @@ TEST(Render, OpenFlatTinyAndHugeMeshesAreShown) {
   }
 }
 
-TEST(Render, StopsWhenCancelled) {
-  const std::atomic<bool> cancel{true};
-  const Progress progress({}, &cancel);
-  EXPECT_EQ(render(makeSphere({0, 0, 0}, 1), quick(), progress).width, 0);
+TEST(Render, ReportsAndStops) {
+  const TriangleMesh mesh = makeSphere({0, 0, 0}, 1);
+  testing::expectReportsAndStops(
+      10, [&](const Progress& progress) { return render(mesh, quick(), progress); });
 }
 
 TEST(Render, RefusesWhatIsOutOfRange) {
@@ -166,7 +164,7 @@ TEST(ViewFromName, KnowsNamesAndAnglesAndSaysSo) {
   try {
     (void)viewFromName("sideways");
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), testing::HasSubstr("front"));
+    EXPECT_THAT(e.what(), ::testing::HasSubstr("front"));
   }
 }
 

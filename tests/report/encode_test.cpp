@@ -15,15 +15,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(Base64, IsWhatTheStandardSays) {
-  // RFC 4648, section 10.
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64(std::string_view("\xff\xfe\x00", 3)), "//4A");
-}
-
 TEST(Deflated, ComesBack) {
   std::string text(100000, 'a');
   for (std::size_t n = 0; n < text.size(); n += 7) text[n] = static_cast<char>(n);

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "measure/seams.h"
 #include "mesh/primitives.h"
+#include "tests/progress_checks.h"
 
 namespace exemplar {
 namespace {
@@ -78,7 +79,7 @@ TEST(Marks, SeamsAreWhereItJumps) {
   EXPECT_LE(marks.size(), 6u);
 }
 
-TEST(Marks, ACopyIsNoSeamAndIsTold) {
+TEST(Marks, ACopyIsMarkedAndIsNoSeam) {
   const DistanceField example = ground(40, 40);
   Origins origins(example.size());
   for (std::size_t n = 0; n < origins.count(); ++n) origins.values()[n] = Origin(origins.ijk(n));
@@ -133,6 +134,17 @@ TEST(Marks, WhatIsHiddenHasNoPlaceInThePicture) {
   };
   EXPECT_GT(from("top"), 0);
   EXPECT_EQ(from("bottom"), 0);  // through the ground
+}
+
+TEST(Marks, ReportAndStop) {
+  const DistanceField example = ground(40, 40);
+  const Origins origins = twice(example, 3);
+  const DistanceField result = gathered(example, origins);
+  const Array3D<float> jumps = seamJumps(example, result, origins);
+  const Camera camera = cameraFrom("top", {60, 40, 16});
+  testing::expectReportsAndStops(10, [&](const Progress& progress) {
+    return findMarks(example, result, origins, jumps, camera, {}, 0, progress);
+  });
 }
 
 TEST(Marks, RefuseWhatDoesNotFit) {

@@ -25,7 +25,7 @@ Json reportNamed(const std::string& title) {
           {"runs", Json::array()}};
 }
 
-/// What stands between the first `open` after `from` and the next `close`.
+/// The text between the first `open` after `from` and the next `close`.
 std::string between(const std::string& text, const std::string& open, const std::string& close) {
   const std::size_t begin = text.find(open);
   if (begin == std::string::npos) return "";
@@ -86,7 +86,7 @@ TEST(ReportPage, KnowsHowLongItWillBe) {
   EXPECT_GE(page.html(reportNamed("ruins")).size(), page.bytes());
 }
 
-TEST(ReportPage, NamesThreesLicenceWhereItHoldsThree) {
+TEST(ReportPage, NamesThreesLicenseWhereItHoldsThree) {
   const std::string html = ReportPage().html(reportNamed("ruins"));
   EXPECT_EQ(html.find("three.js authors") != std::string::npos, reportsTurn());
 }

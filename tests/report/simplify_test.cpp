@@ -1,7 +1,7 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include "report/simplify_soup.h"
+#include "report/simplify.h"
 
 #include <gtest/gtest.h>
 
@@ -13,35 +13,62 @@
 namespace exemplar {
 namespace {
 
-TEST(SimplifySoup, KeepsTheShapeWithinACell) {
+TEST(Simplified, KeepsTheShape) {
   const TriangleMesh ball = makeSphere({5, 5, 5}, 3, 60);  // 20 * 60² triangles
   for (const int most : {200, 2000, 20000}) {
     SCOPED_TRACE(most);
-    const TriangleMesh coarse = simplifySoup(ball, most);
+    const TriangleMesh coarse = simplified(ball, most);
     EXPECT_LE(coarse.triangles.size(), static_cast<std::size_t>(most));
-    EXPECT_GT(coarse.triangles.size(), static_cast<std::size_t>(most) / 4);
-    // A cell holds about one vertex, two triangles: its side follows from the ball's area, and a
-    // mean of points in it lies off the ball by no more than its diagonal.
-    const double side = std::sqrt(4 * 3.1416 * 9 / (0.25 * most / 2));
-    for (const Vec3d& p : coarse.positions)
-      EXPECT_NEAR(length(p - Vec3d{5, 5, 5}), 3, side * std::sqrt(3.0));
+    EXPECT_GT(coarse.triangles.size(), static_cast<std::size_t>(most) * 9 / 10);
+    // Corners are the ball's own. A triangle's middle lies off the ball by its circumradius squared
+    // over the diameter; edges are up to three times as long as in equilateral triangles of one
+    // size.
+    const double edge = 3 * std::sqrt(4 * 3.1416 * 9 / most * 4 / std::sqrt(3.0));
+    for (const Vec3d& p : coarse.positions) EXPECT_NEAR(length(p - Vec3d{5, 5, 5}), 3, 1e-9);
+    for (const auto& t : coarse.triangles) {
+      const Vec3d middle =
+          (coarse.positions[t[0]] + coarse.positions[t[1]] + coarse.positions[t[2]]) / 3.0;
+      EXPECT_NEAR(length(middle - Vec3d{5, 5, 5}), 3, edge * edge / 3 / 6);
+    }
   }
 }
 
-TEST(SimplifySoup, TakesTrianglesThatShareNothing) {
+TEST(Simplified, KeepsWhatIsSmallEnough) {
+  const TriangleMesh ball = makeSphere({5, 5, 5}, 3, 10);  // 20 * 10²
+  EXPECT_EQ(simplified(ball, 2000).triangles.size(), 2000u);
+  EXPECT_EQ(simplified(ball, 50000).triangles.size(), 2000u);
+}
+
+TEST(Simplified, JoinsVerticesAtOnePlace) {
+  // Each triangle with vertices of its own: a surface all the same.
+  const TriangleMesh ball = makeSphere({5, 5, 5}, 3, 30);
+  TriangleMesh loose;
+  for (const auto& t : ball.triangles) {
+    const auto n = static_cast<std::uint32_t>(loose.positions.size());
+    for (const std::uint32_t v : t) loose.positions.push_back(ball.positions[v]);
+    loose.triangles.push_back({n, n + 1, n + 2});
+  }
+  const TriangleMesh coarse = simplified(loose, 2000);
+  // A closed surface of F triangles has F / 2 + 2 vertices.
+  EXPECT_EQ(coarse.positions.size(), coarse.triangles.size() / 2 + 2);
+  EXPECT_GT(coarse.triangles.size(), 1900u);
+  for (const Vec3d& p : coarse.positions) EXPECT_NEAR(length(p - Vec3d{5, 5, 5}), 3, 1e-9);
+}
+
+TEST(Simplified, TakesTrianglesThatShareNothing) {
   TriangleMesh soup;
   const Random random(1);
   for (std::uint32_t n = 0; n < 9000; ++n)
     soup.positions.push_back({random.uniform(n, 0), random.uniform(n, 1), random.uniform(n, 2)});
   for (std::uint32_t n = 0; n < 3000; ++n) soup.triangles.push_back({3 * n, 3 * n + 1, 3 * n + 2});
-  const TriangleMesh coarse = simplifySoup(soup, 1000);
+  const TriangleMesh coarse = simplified(soup, 1000);
   EXPECT_LE(coarse.triangles.size(), 1000u);
   EXPECT_GT(coarse.triangles.size(), 0u);
-  EXPECT_EQ(coarse.triangles, simplifySoup(soup, 1000).triangles);
+  EXPECT_EQ(coarse.triangles, simplified(soup, 1000).triangles);
 }
 
-TEST(SimplifySoup, GivesSomethingEvenForOneTriangle) {
-  EXPECT_EQ(simplifySoup(makeSphere({0, 0, 0}, 1), 1).triangles.size(), 1u);
+TEST(Simplified, GivesSomethingEvenForOneTriangle) {
+  EXPECT_EQ(simplified(makeSphere({0, 0, 0}, 1), 1).triangles.size(), 1u);
 }
 
 }  // namespace

@@ -4,16 +4,16 @@
 #include "report/view_mesh.h"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 #include <zlib.h>
 
-#include <atomic>
 #include <cmath>
 #include <set>
 
 #include "core/error.h"
 #include "core/random.h"
 #include "mesh/primitives.h"
+#include "tests/progress_checks.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -134,7 +134,7 @@ TEST(ViewMesh, OfFewTrianglesIsTheSurfaceItself) {
   const ViewMesh view = makeViewMesh({ball});
   EXPECT_EQ(view.triangles.size(), ball.triangles.size());
   EXPECT_EQ(view.ofTriangles, static_cast<std::int64_t>(ball.triangles.size()));
-  EXPECT_EQ(view.vertices.size(), ball.positions.size());  // smooth: nothing stands twice
+  EXPECT_EQ(view.vertices.size(), ball.positions.size());  // smooth: one corner a vertex
   for (const ViewVertex& v : view.vertices)
     // Positions are exact to half a step of 65,535 along each side.
     EXPECT_NEAR(length(positionOf(view, v) - Vec3d{1, 2, 3}), 2, 4.0 / 65535);
@@ -150,7 +150,7 @@ TEST(ViewMesh, OfManyIsSimplifiedAndStaysTheShape) {
 }
 
 TEST(ViewMesh, LightIsKeptInsideOfLargeTriangles) {
-  // A tall box whose corners stand in the ground and in a roof: its sides are lit all the same.
+  // A tall box whose corners are in the ground and in a roof: its sides are lit all the same.
   TriangleMesh tower = makeBox({{-1, -1, -0.5}, {1, 1, 6}});
   append(tower, makeBox({{-9, -9, -1}, {9, 9, 0}}));
   append(tower, makeBox({{-1.2, -1.2, 5.5}, {1.2, 1.2, 7}}));
@@ -173,7 +173,7 @@ TEST(ViewMesh, BordersOfMaterialsStaySharp) {
     const ViewMesh view = makeViewMesh({twoMaterials()}, {.triangles = triangles});
     std::set<std::array<std::uint8_t, 3>> colors;
     for (const auto& t : view.triangles) {
-      // Each triangle has one material, and so one colour, and it is the one of its side.
+      // Each triangle has one material, and so one color, and it is the one of its side.
       EXPECT_EQ(view.vertices[t[0]].color, view.vertices[t[1]].color);
       EXPECT_EQ(view.vertices[t[0]].color, view.vertices[t[2]].color);
       double z = 0;
@@ -307,17 +307,19 @@ TEST(ViewMesh, PacksHostileNumbersToo) {
 
 TEST(ViewMesh, IsTheSameAtOneAndEightThreads) {
   const TriangleMesh mesh = twoMaterials();
-  std::string one, eight;
-  const ViewOptions options{.triangles = 4000};
-  tbb::task_arena(1).execute([&] { one = packViewMesh(makeViewMesh({mesh}, options)); });
-  tbb::task_arena(8).execute([&] { eight = packViewMesh(makeViewMesh({mesh}, options)); });
-  EXPECT_EQ(one, eight);
+  testing::expectSameAtAnyThreads(
+      [&] { return packViewMesh(makeViewMesh({mesh}, {.triangles = 4000})); });
 }
 
-TEST(ViewMesh, StopsAndRefuses) {
+TEST(ViewMesh, ReportsAndStops) {
+  const TriangleMesh mesh = twoMaterials();
+  testing::expectReportsAndStops(10, [&](const Progress& progress) {
+    return makeViewMesh({mesh}, {.triangles = 4000}, progress);
+  });
+}
+
+TEST(ViewMesh, RefusesWhatDoesNotFit) {
   const Halves h;
-  const std::atomic<bool> cancel = true;
-  EXPECT_TRUE(makeViewMesh({h.mesh}, {}, Progress({}, &cancel)).triangles.empty());
   EXPECT_THROW(makeViewMesh({h.mesh}, {.triangles = 10}), InputError);
   EXPECT_THROW(makeViewMesh({TriangleMesh{}}), InputError);
   EXPECT_THROW(makeViewMesh({h.mesh, nullptr, &h.origins}), InputError);

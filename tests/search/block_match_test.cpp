@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "definitions.h"
 #include "fields.h"
 
 namespace exemplar {

@@ -4,13 +4,14 @@
 #include "search/block_pyramid.h"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <string>
 
 #include "core/error.h"
+#include "definitions.h"
 #include "fields.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -224,9 +225,8 @@ TEST(SlidingPyramid, SumRangesHoldForSubsampledFields) {
 
 TEST(SlidingPyramid, IsTheSameAtOneAndEightThreads) {
   const auto source = fields::noise({40, 33, 37}, 7);
-  tbb::task_arena one(1), eight(8);
   const auto make = [&] { return SlidingPyramid(source, 16).averages(4); };
-  EXPECT_EQ(one.execute(make), eight.execute(make));
+  EXPECT_EQ(testing::onThreads(1, make), testing::onThreads(8, make));
 }
 
 TEST(BlockLevels, RefusesSizesThatAreNoPowersOfTwo) {

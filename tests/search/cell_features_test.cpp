@@ -4,12 +4,12 @@
 #include "search/cell_features.h"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
 #include <cmath>
 
 #include "fields.h"
 #include "search/block_sum.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -158,9 +158,8 @@ TEST(CellFeatures, AreTheSameAtOneAndEightThreads) {
   const CellLayout layout({8, 8, 8}, true);
   const Levels* const sources[] = {&c.source};
   const CellFeatures features(layout, std::span<const Levels* const>(sources), 0, 255);
-  tbb::task_arena one(1), eight(8);
   const auto make = [&] { return features.ofSource(c.source, layout.size[0]); };
-  EXPECT_EQ(one.execute(make), eight.execute(make));
+  EXPECT_EQ(testing::onThreads(1, make), testing::onThreads(8, make));
 }
 
 TEST(MeanShift, BoundsTheMeansOfFieldsOfKnownSlopes) {

@@ -16,7 +16,7 @@ namespace exemplar {
 
 namespace {
 
-// Centred values are small, and so are the errors.
+// Centerd values are small, and so are the errors.
 constexpr float kCenter = 127.5f;
 
 struct Free {

@@ -111,7 +111,7 @@ Array3D<float> terrain(int n, std::uint64_t seed) {
     return 0.45 * n + h;
   };
   // Columns of the surface every half sample, and for each sample the nearest of their tops, found
-  // by passing it on from neighbour to neighbour.
+  // by passing it on from neighbor to neighbor.
   const int m = 2 * n;
   std::vector<float> heights(static_cast<std::size_t>(m) * m);
   for (int j = 0; j < m; ++j)

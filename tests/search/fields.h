@@ -22,7 +22,7 @@ Array3D<float> ballPacking(int n, double radius, std::uint64_t seed);
 Array3D<float> terrain(int n, std::uint64_t seed);
 
 /// The signed distance to rings woven 4-in-1 in a layer, each slightly moved and turned. `pitch` is
-/// the distance of neighbouring rings of a row.
+/// the distance of neighboring rings of a row.
 Array3D<float> chainmail(int n, double pitch, std::uint64_t seed);
 
 /// The exact distance to a ball, a torus or a box in general position.

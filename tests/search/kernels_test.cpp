@@ -165,12 +165,12 @@ TEST(Kernels, BrickGapsAreSumsOfSquares) {
       }
     }
     for (const Kernels* k : all()) {
-      std::uint32_t sums[8], spelt[8];
+      std::uint32_t sums[8], spelled[8];
       k->brickGaps(pointers, shift, width, q, cells, count, sums);
-      k->numberGaps(numbers, width, q, cells, count, spelt);
+      k->numberGaps(numbers, width, q, cells, count, spelled);
       for (int p = 0; p < 8; ++p) {
         EXPECT_EQ(sums[p], expected[p]) << k->name;
-        EXPECT_EQ(spelt[p], expected[p]) << k->name;
+        EXPECT_EQ(spelled[p], expected[p]) << k->name;
       }
     }
   }

@@ -4,14 +4,14 @@
 #include "search/nearest_neighbor_field.h"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
-#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "core/error.h"
 #include "fields.h"
+#include "tests/progress_checks.h"
+#include "tests/threads.h"
 
 namespace exemplar {
 namespace {
@@ -55,7 +55,6 @@ bool mayUse(const Options& options, const Vec3i& s, const Vec3i& t, const Vec3i&
 void expectExact(const Channels& source, const Channels& target, const Options& options,
                  bool wholeNumbers) {
   const auto field = nearestNeighborField(source, target, options);
-  ASSERT_TRUE(field.complete);
   const Vec3i sourceLast = source[0].size() - options.patch;
   const Vec3i targetLast = target[0].size() - options.patch;
   for (std::size_t n = 0; n < field.position.count(); ++n) {
@@ -122,7 +121,7 @@ TEST(NearestNeighborField, ExactCountsAllChannels) {
   expectExact(source, target, {.patch = {3, 4, 5}}, true);
 }
 
-TEST(NearestNeighborField, ExactHonoursMasksWeightsAndWindows) {
+TEST(NearestNeighborField, ExactHonorsMasksWeightsAndWindows) {
   const Channels source{levels(fields::quantized(fields::terrain(20, 1), 4))};
   const Channels target{levels(fields::quantized(fields::terrain(20, 2), 4))};
   const auto allowed = fields::randomMask({20, 20, 20}, 0.4, 1);
@@ -188,27 +187,23 @@ TEST(NearestNeighborField, PatchMatchIsNearlyAsNear) {
 
 TEST(NearestNeighborField, IsTheSameAtOneAndEightThreads) {
   const Channels source{fields::terrain(30, 1)}, target{fields::terrain(30, 2)};
-  tbb::task_arena one(1), eight(8);
   for (auto method : {NeighborMethod::Exact, NeighborMethod::PatchMatch}) {
     const auto make = [&] {
       return nearestNeighborField(
           source, target, {.patch = {6, 6, 6}, .method = method, .iterations = 2, .seed = 4});
     };
-    const auto a = one.execute(make), b = eight.execute(make);
+    const auto a = testing::onThreads(1, make), b = testing::onThreads(8, make);
     EXPECT_EQ(a.position, b.position);
     EXPECT_EQ(a.distance, b.distance);
   }
 }
 
-TEST(NearestNeighborField, StopsWhenCancelled) {
+TEST(NearestNeighborField, ReportsAndStops) {
   const Channels source{fields::terrain(30, 1)};
-  std::atomic<bool> cancel = true;
-  for (auto method : {NeighborMethod::Exact, NeighborMethod::PatchMatch}) {
-    const auto field =
-        nearestNeighborField(source, source, {.method = method}, Progress({}, &cancel));
-    EXPECT_FALSE(field.complete);
-    EXPECT_EQ(field.position.size(), (Vec3i{24, 24, 24}));
-  }
+  for (auto method : {NeighborMethod::Exact, NeighborMethod::PatchMatch})
+    testing::expectReportsAndStops(8, [&](const Progress& progress) {
+      return nearestNeighborField(source, source, {.method = method}, progress);
+    });
 }
 
 TEST(NearestNeighborField, RefusesOptionsOutOfRange) {

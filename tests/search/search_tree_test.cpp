@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "definitions.h"
 #include "fields.h"
 #include "search/linear_scan.h"
 
@@ -160,8 +161,8 @@ TEST(SearchTree, PruningByAFalsePromiseCanBeWrong) {
             expected);
 }
 
-// A linear scan over the field that dropping leaves stands for: blocks of cells of 2^levels
-// samples.
+// A linear scan over the field that a tree without its lowest leaves searches: blocks of cells of
+// 2^levels samples.
 BlockMatch scanSubsampled(const SearchTree& tree, const Query& query, int stride) {
   const Levels& averages = tree.pyramid().averages(tree.droppedLevels());
   const int step = 1 << tree.droppedLevels(), n = tree.blockSize();
@@ -235,7 +236,7 @@ TEST(SearchTree, VisitsFarFewerNodesThanThereAreBlocks) {
   EXPECT_LT(visited / 20, 41 * 41 * 41 / 10);
 }
 
-TEST(SearchTree, RefusesWhatItCannotHonour) {
+TEST(SearchTree, RefusesWhatItCannotHonor) {
   EXPECT_THROW(SearchTree(Levels({20, 20, 20}), 12), InputError);
   EXPECT_THROW(SearchTree(Levels({20, 20, 7}), 8), InputError);
   const SearchTree tree(Levels({20, 20, 20}), 4);

@@ -9,7 +9,7 @@
 
 namespace exemplar::bench {
 
-/// The linear search that Lagae 2004, table 1, compares with: equation 1 as it stands, every sample
+/// The linear search that Lagae 2004, table 1, compares with: equation 1 as written, every sample
 /// of every block, one after another.
 ///
 /// Looks at every `stride`-th slice of positions only (the cost of a slice is that of any other).

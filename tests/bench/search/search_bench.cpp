@@ -9,7 +9,7 @@
 //     build/<n>/<block>/<threads>            of the index
 //     field/<method>/...                     all blocks of a target
 //
-// Methods: `linear`, vectorised and left early; `fft`, correlation with the source's transforms
+// Methods: `linear`, vectorized and left early; `fft`, correlation with the source's transforms
 // precomputed; `paper`, the tree of Lagae 2004, section 4; `best`, our index; in table1 also
 // `exhaustive`, the paper's own kind of linear search. The time of a benchmark is the median over
 // its queries of the thread's processor time. All methods must give the same answers, or the
@@ -175,7 +175,7 @@ void build(benchmark::State& state, int n, int threads) {
 }
 
 // All blocks of a target at stride 2, on one thread: by single queries, by single queries with the
-// neighbours' matches as hints, as a batch, and by PatchMatch, whose error is how much farther its
+// neighbors' matches as hints, as a batch, and by PatchMatch, whose error is how much farther its
 // matches are on average (a share of the exact mean distance).
 struct Batch {
   Levels levelSource, levelTarget;

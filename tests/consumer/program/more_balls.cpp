@@ -6,16 +6,16 @@
 #include <cstdio>
 #include <exception>
 
-#include "mesh/mesh_file.h"
-#include "mesh/primitives.h"
-#include "reconstruct/reconstruct.h"
-#include "sdf/mesh_to_sdf.h"
-#include "synth/geometry/quilting/quilting.h"
+#include <exemplar/mesh/mesh_file.h>
+#include <exemplar/mesh/primitives.h>
+#include <exemplar/reconstruct/reconstruct.h>
+#include <exemplar/sdf/mesh_to_sdf.h>
+#include <exemplar/synth/geometry/quilting/quilting.h>
 
-int main(int argc, char** argv) try {
-  using namespace exemplar;
-  if (argc != 2) return std::puts("usage: more_balls OUT.obj"), 2;
+using namespace exemplar;
 
+/// Writes more of four balls; whether it is a closed surface.
+bool moreBalls(const char* file) {
   TriangleMesh balls;  // or readMesh("balls.obj")
   for (const Vec3d& center : {Vec3d{2, 2, 2}, {6, 3, 2}, {3, 6, 2}, {6.5, 6.5, 2}})
     append(balls, makeSphere(center, 1.5));
@@ -26,8 +26,13 @@ int main(int argc, char** argv) try {
       synthesizeByQuilting(example, {.size = {2 * n.x, 2 * n.y, n.z}, .seed = 1});
   const Reconstruction surface = reconstructSurface(more.field, more.origins, {example, &balls});
 
-  writeMesh(argv[1], surface.mesh);
-  return surface.health.closed() && surface.health.manifold() ? 0 : 1;
+  writeMesh(file, surface.mesh);
+  return surface.health.closed() && surface.health.manifold();
+}
+
+int main(int argc, char** argv) try {
+  if (argc != 2) return std::puts("usage: more_balls OUT.obj"), 2;
+  return moreBalls(argv[1]) ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "more_balls: %s\n", error.what());
   return 2;

@@ -22,7 +22,7 @@ let chromium;
 try {
   ({ chromium } = createRequire(join(modules, 'x.js'))('playwright-core'));
 } catch (error) {
-  skip(`no playwright-core in ${modules} (${error.message.split('\n')[0]}); npm fetches it when cmake runs`);
+  skip(`no playwright-core in ${modules} (${error.message.split('\n')[0]}); npm fetches it when exemplar is built`);
 }
 
 const folder = mkdtempSync(join(tmpdir(), 'exemplar-report-'));
@@ -93,7 +93,7 @@ async function teach(page) {
       pixels,
       canvas: (n) => document.querySelectorAll('#views canvas')[n],
       frame: () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 0)))),
-      /// How much of a canvas is drawn, and how much its colours vary.
+      /// How much of a canvas is drawn, and how much its colors vary.
       content: (canvas) => {
         const { data } = pixels(canvas);
         let drawn = 0, sum = 0, squares = 0;
@@ -135,7 +135,7 @@ const hashes = (page) => page.evaluate(() => [...document.querySelectorAll('#vie
 const contents = (page) => page.evaluate(() => [...document.querySelectorAll('#views canvas')].map(test.content));
 const isBlank = ({ share, deviation }) => !(share > 0.05 && share < 0.95 && deviation > 4);
 
-// ---- views, turning, colours, the slider
+// ---- views, turning, colors, the slider
 
 const { context, page, errors, requests } = await open('made/report.html');
 await teach(page);
@@ -147,7 +147,7 @@ await settle(page);
 const count = await page.locator('#views canvas').count();
 check('there is a view of the example and of each engine', count === 3, count);
 for (const content of await contents(page)) check('a view shows a surface', !isBlank(content), JSON.stringify(content));
-check('a blank view is told from one that shows something', await page.evaluate(() => {
+check('a blank view is distinguished from one that shows something', await page.evaluate(() => {
   const canvas = document.createElement('canvas');
   return test.content(canvas);
 }).then(isBlank));
@@ -199,20 +199,20 @@ const choose = async (name, value) => {
 };
 const huesOf = () => page.evaluate(() => [...document.querySelectorAll('#views canvas')].map(test.hues));
 const plainHues = await huesOf();
-await choose('Colour', 'origins');
+await choose('Color', 'origins');
 const origins = await hashes(page), originHues = await huesOf();
-check('origins colour every view anew', origins.every((h, n) => h !== home[n]));
+check('origins recolor every view', origins.every((h, n) => h !== home[n]));
 check('origins have many hues', originHues.every((n, i) => n >= 8 && n > plainHues[i]), `${originHues} from ${plainHues}`);
 check('origins have a legend', /origins/i.test(await page.locator('.legend').innerText()));
-await choose('Colour', 'jumps');
+await choose('Color', 'jumps');
 const jumps = await hashes(page), jumpHues = await huesOf();
-check('seam jumps colour every view anew', jumps.every((h, n) => h !== home[n] && h !== origins[n]));
+check('seam jumps recolor every view', jumps.every((h, n) => h !== home[n] && h !== origins[n]));
 check('the example has no seam, and a result of blocks has', jumpHues[0] === 0 && jumpHues[1] > 0, jumpHues);
 check('seam jumps have a legend with units', /voxels/.test(await page.locator('.legend').innerText()));
 await page.locator('.legend select').selectOption('1');
 await settle(page);
 check('the scale of jumps changes what is shown', (await hashes(page))[1] !== jumps[1]);
-await choose('Colour', 'material');
+await choose('Color', 'material');
 check('material is as before', (await hashes(page)).every((h, n) => h === home[n]));
 await page.locator('#seed').selectOption('1');
 await page.waitForTimeout(300);
@@ -294,7 +294,7 @@ const agreement = await page.evaluate(async () => {
 });
 const { straight, mirrored } = agreement;
 for (let c = 0; c < 3; ++c) {
-  check('the view has the picture’s mean colour', near(straight.mean[c], straight.mean[3 + c], 25), JSON.stringify(straight));
+  check('the view has the picture’s mean color', near(straight.mean[c], straight.mean[3 + c], 25), JSON.stringify(straight));
 }
 check('the view’s light is the picture’s, place by place', straight.correlation > 0.6, straight.correlation);
 check('where the view shows nothing the picture shows its background, but for shadows', straight.background > 0.7, straight.background);
@@ -318,7 +318,7 @@ const mean = (engine, group, key) => {
 };
 const pasted = async () => {
   await page.locator('#copy').click();
-  await page.waitForFunction(() => document.querySelector('.told').textContent !== '');
+  await page.waitForFunction(() => document.querySelector('.status').textContent !== '');
   await page.evaluate(() => {
     const area = document.createElement('textarea');
     area.id = 'pasted';
@@ -341,7 +341,7 @@ const copied = await pasted();
 check('the copied table holds the figures', holdsFigures(copied), copied.slice(0, 200));
 check('another table does not', !holdsFigures(copied.replace(/(lp_dense\t)[^\t]+/, '$10.123')));
 await page.evaluate(() => { navigator.clipboard.writeText = () => Promise.reject(new Error('no')); });
-await page.evaluate(() => { document.querySelector('.told').textContent = ''; });
+await page.evaluate(() => { document.querySelector('.status').textContent = ''; });
 await choose('Rows', 'runs');
 const every = await pasted();
 const lines = every.trim().split('\n').map((line) => line.split('\t'));
@@ -392,7 +392,7 @@ for (let n = 0; n < 60; ++n) {
     return e.id || e.className || e.dataset.look || e.name || e.tagName;
   }));
 }
-for (const name of ['seed', 'choice-Colour', 'iso', 'together', 'CANVAS', 'slider', 'copy']) {
+for (const name of ['seed', 'choice-Color', 'iso', 'together', 'CANVAS', 'slider', 'copy']) {
   check(`Tab reaches ${name}`, reached.has(name), [...reached].join(' '));
 }
 check('nothing was asked of the network', requests.length === 0, requests);
