@@ -12,9 +12,8 @@ scenes=("$@")
   castle city canyon cluster paths gears forest library)
 for scene in "${scenes[@]}"; do
   echo "== $scene"
-  method=(--method "${METHOD:-optimize}")
-  case $scene in castle | city | canyon | cluster | paths | gears | forest | library) method=() ;; esac # model synthesis
-  "$exemplar" synth "scenes/$scene.toml" -o "out/gallery/$scene.glb" --stats "out/gallery/$scene.json" "${method[@]}"
+  engine=(--engine "${ENGINE:-auto}")
+  "$exemplar" synth "scenes/$scene.toml" -o "out/gallery/$scene.glb" --stats "out/gallery/$scene.json" "${engine[@]}"
   "$exemplar" render "scenes/$scene.toml" "out/gallery/$scene.glb" -o "docs/gallery/$scene.png" --size 640x480 --samples 48
 done
 

@@ -90,9 +90,13 @@ TEST(BadCommand, MissingFileIsNamed) {
 
 TEST(BadCommand, NoCommandAndUnknownOptionAreStatusTwo) {
   const TestFolder folder;
-  EXPECT_EQ(runExemplar("", folder.path()).status, 2);
-  EXPECT_EQ(runExemplar("frobnicate", folder.path()).status, 2);
-  EXPECT_EQ(runExemplar("synth e.obj -o o.obj --frobnicate", folder.path()).status, 2);
+  for (const auto& [arguments, says] : {std::pair{"", "A subcommand is required"},
+                                        {"frobnicate", "frobnicate"},
+                                        {"synth e.obj -o o.obj --frobnicate", "--frobnicate"}}) {
+    const auto run = runExemplar(arguments, folder.path());
+    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_THAT(run.err, HasSubstr(says));
+  }
 }
 
 TEST(BadCommand, HelpAndVersionAreStatusZero) {
@@ -107,6 +111,7 @@ TEST(BadCommand, AFullDiskLeavesNoFile) {
   const TestFolder folder;
   const auto result = runExemplar("scene chainmail -o /dev/full", folder.path());
   EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("/dev/full"));
 }
 
 }  // namespace

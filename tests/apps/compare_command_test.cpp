@@ -62,7 +62,7 @@ TEST_F(CompareCommand, RunsEveryEngineAndSaysWhatItFound) {
   }
 }
 
-TEST_F(CompareCommand, TellsWhyAnEngineMadeNothing) {
+TEST_F(CompareCommand, SaysWhyAnEngineMadeNothing) {
   // One block along x: the example does not show what could stand beside it.
   ASSERT_EQ(compare("--seeds 1 --engines model --resolution 16").status, 0);
   const json run = read("compare.json").at("runs")[0];
@@ -171,12 +171,17 @@ TEST_F(CompareCommand, WritesAPageThatStandsAlone) {
 }
 
 TEST_F(CompareCommand, RefusesWhatItCannotDo) {
-  EXPECT_EQ(compare("--seeds 0").status, 2);
-  EXPECT_EQ(compare("--engines best").status, 2);
-  EXPECT_EQ(compare("--scale 1,0,1").status, 2);
   writeFile(folder_ / "file", "not a folder");
-  EXPECT_EQ(runExemplar("compare hills.pgm -o file", folder_.path()).status, 2);
-  EXPECT_EQ(runExemplar("compare none.obj -o made", folder_.path()).status, 2);
+  const auto refused = [](const CommandResult& run, const char* says) {
+    EXPECT_EQ(run.status, 2) << says;
+    EXPECT_THAT(run.err, HasSubstr(says));
+  };
+  refused(compare("--seeds 0"), "--seeds");
+  refused(compare("--engines best"), "--engines best: --engine best: expected geometry");
+  refused(compare("--engines blocks:seed=3"), "is the same for all engines");
+  refused(compare("--scale 1,0,1"), "--scale 1,0,1");
+  refused(runExemplar("compare hills.pgm -o file", folder_.path()), "cannot be made a folder");
+  refused(runExemplar("compare none.obj -o made", folder_.path()), "none.obj: no such file");
 }
 
 }  // namespace

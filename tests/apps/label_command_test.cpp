@@ -301,7 +301,7 @@ TEST_F(LabelCommand, VoxelizeWritesCellsOfMaterials) {
   EXPECT_THAT(result.out, HasSubstr("24 of 90 cells not empty"));
 }
 
-TEST_F(LabelCommand, InfoTellsLabelsAndAdjacency) {
+TEST_F(LabelCommand, InfoReportsLabelsAndAdjacency) {
   const CommandResult result = run("info rings.txt --list --json i.json");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("8 that cells have"));

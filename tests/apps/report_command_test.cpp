@@ -43,7 +43,7 @@ class ReportOption : public testing::Test {
   TestFolder folder_;
 };
 
-TEST_F(ReportOption, OfSynthTellsWhatTheRunWas) {
+TEST_F(ReportOption, OfSynthSaysWhatTheRunWas) {
   const CommandResult outcome =
       run("synth hills.pgm -o more.vdb --origins from.vdb --report r.html --method blocks --seed 5 "
           "--scale 1,1,1 --size 60x40 --samples 1" +
@@ -85,7 +85,9 @@ TEST_F(ReportOption, IsRefusedBeforeAnyWork) {
     const CommandResult outcome = run(command + " --report page.pdf");
     EXPECT_EQ(outcome.status, 2) << command;
     EXPECT_THAT(outcome.err, HasSubstr(".html"));
-    EXPECT_EQ(run(command + " --report nowhere/page.html").status, 2) << command;
+    const CommandResult nowhere = run(command + " --report nowhere/page.html");
+    EXPECT_EQ(nowhere.status, 2) << command;
+    EXPECT_THAT(nowhere.err, HasSubstr("nowhere/page.html: cannot be written"));
   }
   EXPECT_THAT(folder_.files(), Not(HasSubstr("more")));
 }

@@ -3,14 +3,17 @@
 
 #include "tests/apps/run_command.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <thread>
 
 namespace exemplar {
 namespace {
@@ -35,6 +38,45 @@ CommandResult runExemplar(const std::string& arguments, const fs::path& folder) 
   CommandResult result{WIFEXITED(code) ? WEXITSTATUS(code) : -1, contentOf(out), contentOf(err)};
   fs::remove(out);
   fs::remove(err);
+  return result;
+}
+
+CommandResult interruptExemplar(const std::vector<std::string>& arguments, const fs::path& folder,
+                                int signal, std::chrono::milliseconds after) {
+  int err[2];
+  if (pipe(err) != 0) return {};
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<std::string> words{EXEMPLAR_COMMAND};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    words.insert(words.end(), {"--progress", "json"});
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    dup2(err[1], STDERR_FILENO);
+    close(err[0]);
+    close(err[1]);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    if (chdir(folder.c_str()) == 0) execv(EXEMPLAR_COMMAND, argv.data());
+    _exit(127);
+  }
+  close(err[1]);
+  CommandResult result;
+  char bytes[4096];
+  bool sent = false;
+  for (ssize_t n; (n = read(err[0], bytes, sizeof bytes)) > 0;) {
+    result.err.append(bytes, static_cast<std::size_t>(n));
+    if (!sent && result.err.find('\n') != std::string::npos) {
+      std::this_thread::sleep_for(after);
+      kill(child, signal);
+      sent = true;
+    }
+  }
+  close(err[0]);
+  int code = 0;
+  waitpid(child, &code, 0);
+  result.status = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
   return result;
 }
 

@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace exemplar {
 
@@ -16,6 +18,12 @@ struct CommandResult {
 
 /// Runs `exemplar ARGUMENTS` through the shell in `folder`.
 CommandResult runExemplar(const std::string& arguments, const std::filesystem::path& folder);
+
+/// Runs `exemplar ARGUMENTS... --progress json` in `folder`, and sends it a signal a while after it
+/// has said that it began.
+CommandResult interruptExemplar(const std::vector<std::string>& arguments,
+                                const std::filesystem::path& folder, int signal,
+                                std::chrono::milliseconds after);
 
 /// An empty folder of its own for the running test, removed with it.
 class TestFolder {

@@ -6,25 +6,25 @@
 #include <cstdio>
 #include <exception>
 
+#include <exemplar/engine/engine.h>
+#include <exemplar/engine/realize.h>
 #include <exemplar/mesh/mesh_file.h>
 #include <exemplar/mesh/primitives.h>
-#include <exemplar/reconstruct/reconstruct.h>
-#include <exemplar/sdf/mesh_to_sdf.h>
-#include <exemplar/synth/geometry/quilting/quilting.h>
 
 using namespace exemplar;
 
 /// Writes more of four balls; whether it is a closed surface.
 bool moreBalls(const char* file) {
-  TriangleMesh balls;  // or readMesh("balls.obj")
+  TriangleMesh balls;  // or a path: readExample("balls.obj", ...)
   for (const Vec3d& center : {Vec3d{2, 2, 2}, {6, 3, 2}, {3, 6, 2}, {6.5, 6.5, 2}})
     append(balls, makeSphere(center, 1.5));
-  const DistanceField example = meshToSdf(balls, {.resolution = 24, .padding = 2});
+  const Example example = readExample(Source::of(balls), {.resolution = 24, .padding = 2});
 
-  const Vec3i n = example.size();
-  const SynthesisResult more =
-      synthesizeByQuilting(example, {.size = {2 * n.x, 2 * n.y, n.z}, .seed = 1});
-  const Reconstruction surface = reconstructSurface(more.field, more.origins, {example, &balls});
+  Request request;
+  request.extent.scale = Vec3d{2, 2, 1};
+  request.seed = 1;
+  const Result more = engineNamed("geometry").run({&example, 1}, request);
+  const Surface surface = realize(more, {&example, 1});
 
   writeMesh(file, surface.mesh);
   return surface.health.closed() && surface.health.manifold();
