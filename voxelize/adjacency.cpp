@@ -20,7 +20,7 @@ std::string words(const CellOffset& o) {
   return text + ")";
 }
 
-/// Up to so many labels their pairs are counted in a table, which then takes 8 MB at most.
+/// Pairs of no more labels than this are counted in a table, which then takes 8 MB at most.
 constexpr std::size_t kLabelsInTable = 1024;
 
 CellOffset opposite(const CellOffset& o) { return {-o.x, -o.y, -o.z, -o.t}; }
@@ -30,12 +30,15 @@ std::vector<CellOffset> offsetsToCount(const AdjacencyOptions& options) {
   if (options.frames) offsets.push_back({0, 0, 0, 1});
   std::set<CellOffset> known(offsets.begin(), offsets.end());
   for (const CellOffset& o : options.offsets) {
-    if (o == CellOffset{}) throw InputError("the offset (0, 0, 0) is no neighbor; leave it out");
+    if (o == CellOffset{})
+      throw InputError("`offset` (0, 0, 0): a cell is no neighbor of itself; leave it out");
     if (known.contains(o) || known.contains(opposite(o))) {
-      throw InputError("the offset " + words(o) + " is there already (or its opposite is)");
+      throw InputError("`offset` " + words(o) +
+                       ": it, or its opposite, is counted already; leave it out");
     }
     if (o.t != 0 && !options.frames) {
-      throw InputError("the offset " + words(o) + " steps through time, and there are no frames");
+      throw InputError("`offset` " + words(o) +
+                       ": it steps through time, and the example has no frames");
     }
     known.insert(o);
     offsets.push_back(o);
@@ -108,7 +111,7 @@ PairRule countPairs(std::span<const LabelGrid> examples, const CellOffset& offse
 }
 
 void checkExamples(std::span<const LabelGrid> examples, const AdjacencyOptions& options) {
-  if (examples.empty()) throw InputError("model synthesis needs an example; there is none");
+  if (examples.empty()) throw InputError("model synthesis needs an example, and none was given");
   for (const LabelGrid& e : examples) {
     if (e.cells.empty()) throw InputError("an example of labels has no cells");
     if (e.labelCount() != examples[0].labelCount()) {

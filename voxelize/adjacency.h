@@ -28,13 +28,13 @@ struct LabelPair {
   bool operator==(const LabelPair&) const = default;
 };
 
-/// Which labels may stand at one offset from which: the transition matrix of a direction (thesis,
+/// Which labels may be neighbors at one offset: the transition matrix of a direction (thesis,
 /// equation 3.2) with the frequencies that it drops.
 struct PairRule {
   CellOffset offset;
   std::vector<LabelPair> pairs;  ///< ascending by `first`, then `second`; nothing twice
 
-  /// How often `second` stands at the offset from `first`; 0: never. O(log pairs).
+  /// How often `second` is at the offset from `first`; 0: never. O(log pairs).
   std::int64_t count(Label first, Label second) const;
   bool allows(Label first, Label second) const { return count(first, second) > 0; }
 };
@@ -45,8 +45,8 @@ enum class Side { MinX, MaxX, MinY, MaxY, MinZ, MaxZ };
 /// All that model synthesis knows of an example (Merrell 2007, section 2; thesis, section 3.1).
 struct Adjacency {
   int labelCount = 0;
-  /// Along +x, +y, +z, and +t where there are frames; then what was asked for beside these. The
-  /// rule of an axis along which the example is one cell thick is there and has no pairs.
+  /// Along +x, +y, +z, and +t for an example of frames; then the further offsets. The rule of an
+  /// axis along which the example is one cell thick has no pairs.
   std::vector<PairRule> rules;
   std::vector<std::int64_t> frequency;  ///< cells of each label; may be 0
   /// The labels in the example's outermost layer at each side, ascending: by default what a result

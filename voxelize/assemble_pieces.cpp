@@ -78,7 +78,7 @@ class Assembler {
 
   TriangleMesh assemble(std::vector<std::uint32_t>* cellOf) {
     requireMemory(200 * countTriangles(grid_, pieces_), "the mesh of the result",
-                  "make a smaller one");
+                  "use a smaller `size`");
     copy();
     divideEdges();
     if (cellOf) *cellOf = std::move(cells_);

@@ -75,7 +75,7 @@ class Cutter {
       parts += cells.x * cells.y + cells.y * cells.z + cells.z * cells.x;
     }
     requireMemory(64 * parts + 8.0 * static_cast<double>(volume(size_)),
-                  "the mesh cut along the grid", "use larger cells");
+                  "the mesh cut along the grid", "use a larger `cell`");
   }
 
   /// Cuts a polygon along the planes across `axis`, and each part along those of the next axis.

@@ -31,17 +31,14 @@ void check(const FieldBlocksOptions& options) {
   for (int axis = 0; axis < 3; ++axis) {
     const int side = options.block[axis];
     if (side != 0 && (side < 2 || side > 64)) {
-      throw InputError("blocks of " + std::to_string(side) +
-                       " samples a side are out of range; 2 to 64 is right");
+      throw InputError("`block` " + std::to_string(side) +
+                       ": each side must be 2 to 64 samples, or 0 to find it");
     }
   }
-  if (!(options.tolerance >= 0))
-    throw InputError("a tolerance of blocks must be at least 0 voxels");
-  if (!(options.truncation > 0))
-    throw InputError("blocks must be compared within more than 0 voxels");
+  if (!(options.tolerance >= 0)) throw InputError("`tolerance`: must be 0 voxels or more");
+  if (!(options.truncation > 0)) throw InputError("`truncation`: must be more than 0 voxels");
   if (options.overlap < 0 || options.overlap > 63)
-    throw InputError("an overlap of " + std::to_string(options.overlap) +
-                     " samples is out of range; 0 to 63 is right");
+    throw InputError("`overlap` " + std::to_string(options.overlap) + ": must be 0 to 63 samples");
 }
 
 // The first sample of a cell's block, from that of the first cell.
@@ -103,7 +100,7 @@ struct Lattice {
 };
 
 // The labels of a field's blocks.
-struct Labelled {
+struct Labeled {
   Vec3i cells{};
   std::vector<int> label;    // of each cell
   std::vector<Vec3i> first;  // of each label, its first cell
@@ -114,10 +111,10 @@ struct Labelled {
   }
 };
 
-// Nothing where there are more than `most` labels.
-std::optional<Labelled> label(const Array3D<float>& values, const Lattice& lattice,
-                              double tolerance, int most, const Progress& progress) {
-  Labelled result;
+// Nothing for more than `most` labels.
+std::optional<Labeled> label(const Array3D<float>& values, const Lattice& lattice, double tolerance,
+                             int most, const Progress& progress) {
+  Labeled result;
   result.cells = lattice.cells(values.size());
   const Array3D<std::uint8_t> cells(result.cells);
   result.label.resize(cells.count());
@@ -140,14 +137,15 @@ std::optional<Labelled> label(const Array3D<float>& values, const Lattice& latti
 
 [[noreturn]] void refuseLabels(int most) {
   throw InputError("the example has more than " + std::to_string(most) +
-                   " different blocks; use larger ones, a larger tolerance or a smaller example");
+                   " different blocks; use a larger `block`, a larger `tolerance`, or a smaller "
+                   "example");
 }
 
-Labelled labelOrThrow(const Array3D<float>& values, const Lattice& lattice, double tolerance,
-                      const Progress& progress) {
-  std::optional<Labelled> labelled = label(values, lattice, tolerance, kMostBlocks, progress);
-  if (!labelled) refuseLabels(kMostBlocks);
-  return std::move(*labelled);
+Labeled labelOrThrow(const Array3D<float>& values, const Lattice& lattice, double tolerance,
+                     const Progress& progress) {
+  std::optional<Labeled> labeled = label(values, lattice, tolerance, kMostBlocks, progress);
+  if (!labeled) refuseLabels(kMostBlocks);
+  return std::move(*labeled);
 }
 
 // Axis after axis, twice: the phase at which most blocks are repeated.
@@ -181,8 +179,8 @@ Vec3i findPhase(const Array3D<float>& values, const Vec3i& block, double toleran
 }
 
 // Blocks that overlap are taken as densely as the number of labels allows.
-Labelled labelOverlapping(const Array3D<float>& values, const Vec3i& stride, double tolerance,
-                          Lattice& lattice, const Progress& progress) {
+Labeled labelOverlapping(const Array3D<float>& values, const Vec3i& stride, double tolerance,
+                         Lattice& lattice, const Progress& progress) {
   for (int densest = 1;; densest *= 2) {
     // Each try has a fraction of what is left.
     progress.report("taking overlapping blocks", 1 - 1.0 / densest);
@@ -195,8 +193,8 @@ Labelled labelOverlapping(const Array3D<float>& values, const Vec3i& stride, dou
     }
     const bool sparsest = lattice.step == stride;
     const int most = sparsest ? kMostOverlapping : kGoodOverlapping;
-    std::optional<Labelled> labelled = label(values, lattice, tolerance, most, progress);
-    if (labelled) return std::move(*labelled);
+    std::optional<Labeled> labeled = label(values, lattice, tolerance, most, progress);
+    if (labeled) return std::move(*labeled);
     if (sparsest) refuseLabels(kMostOverlapping);
   }
 }
@@ -283,14 +281,14 @@ FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& 
   for (int axis = 0; axis < 3; ++axis) {
     const int n = field.size()[axis], side = blocks.block[axis];
     if (side > n) {
-      throw InputError("blocks of " + std::to_string(side) +
-                       " samples do not fit into a field of " + std::to_string(n) +
-                       "; use smaller blocks or a higher resolution");
+      throw InputError("`block` " + std::to_string(side) + ": larger than the field, which is " +
+                       std::to_string(n) + " samples; use a smaller one or a higher `resolution`");
     }
     if (options.phase && ((*options.phase)[axis] < 0 || (*options.phase)[axis] >= side ||
                           (*options.phase)[axis] + side > n)) {
-      throw InputError("a phase of " + std::to_string((*options.phase)[axis]) +
-                       " is out of range for blocks of " + std::to_string(side) + " samples");
+      throw InputError("`phase` " + std::to_string((*options.phase)[axis]) +
+                       ": out of range for blocks of " + std::to_string(side) +
+                       " samples in a field of " + std::to_string(n));
     }
   }
   blocks.tolerance = options.tolerance;
@@ -300,35 +298,36 @@ FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& 
     for (int axis = 0; axis < 3; ++axis) {
       if (blocks.block[axis] == field.size()[axis]) continue;
       if (options.overlap >= blocks.block[axis]) {
-        throw InputError("blocks of " + std::to_string(blocks.block[axis]) +
-                         " samples cannot overlap by " + std::to_string(options.overlap) +
-                         "; use larger blocks or a smaller overlap");
+        throw InputError("`overlap` " + std::to_string(options.overlap) + ": blocks of " +
+                         std::to_string(blocks.block[axis]) +
+                         " samples cannot share that many; use a larger `block` or a smaller "
+                         "`overlap`");
       }
       blocks.stride[axis] = blocks.block[axis] - options.overlap;
     }
   }
   const Array3D<float> values = truncated(field, options.truncation);
   Lattice lattice{blocks.block, blocks.stride, options.phase.value_or(Vec3i{})};
-  Labelled labelled;
+  Labeled labeled;
   if (options.overlap > 0) {
-    labelled = labelOverlapping(values, blocks.stride, options.tolerance, lattice,
-                                progress.part(0.2, 0.6));
+    labeled = labelOverlapping(values, blocks.stride, options.tolerance, lattice,
+                               progress.part(0.2, 0.6));
   } else {
     if (!options.phase)
       lattice.phase = findPhase(values, blocks.block, options.tolerance, progress.part(0.2, 0.6));
     progress.report("labeling blocks", 0.6);
-    labelled = labelOrThrow(values, lattice, options.tolerance, progress);
+    labeled = labelOrThrow(values, lattice, options.tolerance, progress);
   }
   blocks.phase = lattice.phase;
   blocks.step = lattice.step;
-  blocks.repetition = labelled.repetition();
-  blocks.grid.cells = Array3D<Label>(labelled.cells);
-  blocks.members.resize(labelled.first.size());
-  for (std::size_t c = 0; c < labelled.label.size(); ++c) {
-    blocks.grid.cells.data()[c] = static_cast<Label>(labelled.label[c]);
-    blocks.members[static_cast<std::size_t>(labelled.label[c])].push_back(blocks.grid.cells.ijk(c));
+  blocks.repetition = labeled.repetition();
+  blocks.grid.cells = Array3D<Label>(labeled.cells);
+  blocks.members.resize(labeled.first.size());
+  for (std::size_t c = 0; c < labeled.label.size(); ++c) {
+    blocks.grid.cells.data()[c] = static_cast<Label>(labeled.label[c]);
+    blocks.members[static_cast<std::size_t>(labeled.label[c])].push_back(blocks.grid.cells.ijk(c));
   }
-  blocks.grid.labels.resize(labelled.first.size());
+  blocks.grid.labels.resize(labeled.first.size());
   blocks.grid.cellSize = cast<double>(blocks.stride) * field.voxelSize;
   const Vec3d half{0.5, 0.5, 0.5};
   blocks.grid.origin = field.position(cast<double>(blocks.phase) - half);
@@ -343,7 +342,7 @@ FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& 
 RecognizedBlocks recognizeBlocks(const DistanceField& field, const DistanceField& example,
                                  const FieldBlocks& blocks, const Progress& progress) {
   if (blocks.stride != blocks.block)
-    throw InputError("only blocks that do not overlap can be recognized in a result");
+    throw InputError("blocks that overlap cannot be recognized in a result; cut with `overlap` 0");
   for (int axis = 0; axis < 3; ++axis)
     if (field.size()[axis] < blocks.block[axis])
       throw InputError("the result is smaller than a block of " +
@@ -419,14 +418,15 @@ std::array<bool, 6> cutSides(const DistanceField& field) {
 
 PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks,
                          const Array3D<Label>& labels, const Progress& progress) {
-  if (labels.empty()) throw InputError("there are no labels to put blocks in place of");
+  if (labels.empty()) throw InputError("the grid of labels has no cells to put blocks in");
   for (Label l : labels.values())
     if (l >= blocks.members.size())
-      throw InputError("label " + std::to_string(l) + " is not one of the blocks'");
+      throw InputError("label " + std::to_string(l) +
+                       " is in the grid and no block of the example has it");
   const Vec3i size = corner(labels.size(), blocks.stride);
   requireMemory(static_cast<double>(labels.count()) * static_cast<double>(volume(blocks.stride)) *
                     (sizeof(float) + sizeof(Origin)),
-                "the result", "ask for a smaller one");
+                "the result", "use a smaller `size`");
   PlacedBlocks placed;
   placed.field.values = Array3D<float>(size);
   placed.field.voxelSize = example.voxelSize;
@@ -434,7 +434,7 @@ PlacedBlocks placeBlocks(const DistanceField& example, const FieldBlocks& blocks
   placed.field.truncation = example.truncation;
   placed.origins = Origins(size);
 
-  // How little a block's continuation across a low face agrees with what stands there.
+  // How little a block's continuation across a low face agrees with what is in place.
   const auto disagreement = [&](const Vec3i& from, const Vec3i& to, int axis, double limit) {
     Vec3i face = blocks.stride;
     face[axis] = 1;

@@ -30,9 +30,9 @@ struct FieldBlocksOptions {
   double tolerance = 0.5;
   double truncation = 2;
   /// Samples that neighboring blocks share along each axis that has several, less than their sides.
-  /// 0: blocks tile the field, and stand side by side as they do in it. Else blocks are taken at
-  /// every place of the example (every second, fourth, ... where there were too many labels), and
-  /// any two may stand side by side whose shared samples agree: for examples without a grid.
+  /// 0: blocks tile the field, and are neighbors as they are in it. Else blocks are taken at
+  /// every place of the example (every second, fourth, ... where that gave too many labels), and
+  /// any two may be neighbors whose shared samples agree: for examples without a grid.
   int overlap = 0;
 };
 
@@ -40,7 +40,7 @@ struct FieldBlocksOptions {
 /// bridge between the two families.
 struct FieldBlocks {
   LabelGrid grid;  ///< of whole blocks; what is left over at the sides is not part of it
-  /// Which blocks may stand side by side in a result: those of neighboring cells of `grid`; with
+  /// Which blocks may be neighbors in a result: those of neighboring cells of `grid`; with
   /// overlap, those that agree within twice the tolerance in all samples they share, as all do that
   /// are neighbors in the example, counted as often as they are, at least once.
   Adjacency adjacency;
@@ -56,7 +56,7 @@ struct FieldBlocks {
   std::vector<Vec3i> medoid;
   /// Of all blocks the share that is not the first of its label: 0: nothing repeats.
   double repetition = 0;
-  double tolerance = 0, truncation = 0;  ///< as asked for
+  double tolerance = 0, truncation = 0;  ///< of the options
 };
 
 /// For each axis the shortest step after which the field is most nearly itself, near its surface:
@@ -65,10 +65,10 @@ struct FieldBlocks {
 Vec3i findBlockSize(const DistanceField& field, const FieldBlocksOptions& options = {},
                     const Progress& progress = {});
 
-/// Cuts a field into labelled blocks. Labels are numbered by their first block's index. Blocks are
+/// Cuts a field into labeled blocks. Labels are numbered by their first block's index. Blocks are
 /// compared with the first block of each label so far, each comparison left early: O(blocks ×
 /// labels) at worst, for each phase that is tried (at most the sum of the block's sides, twice).
-/// With overlap there are at most 4,096 labels, unless the field has more blocks without it, and
+/// With overlap the labels are at most 4,096, unless the field has more blocks without it, and
 /// all pairs are compared along each axis. Deterministic at any number of threads. Throws
 /// `InputError` for options out of range, a field smaller than a block, or more than 65,536 labels
 /// (16,384 with overlap). Throws `Cancelled`.
@@ -76,7 +76,7 @@ FieldBlocks cutIntoBlocks(const DistanceField& field, const FieldBlocksOptions& 
                           const Progress& progress = {});
 
 /// At which sides of its box, in the order of `Side`, the example's solid is cut off: there it is a
-/// window into something larger, and what stands there need not stand at a result's sides.
+/// window into something larger, and what is there need not be at a result's sides.
 std::array<bool, 6> cutSides(const DistanceField& field);
 
 /// What a grid of labels shows as a field again, and where each sample came from.

@@ -20,14 +20,14 @@ bool isLabelFile(const std::filesystem::path& path);
 ///
 /// `.txt`: the text format of Merrell's model synthesis tool (see `parseLabelText`). `.vox`:
 /// MagicaVoxel (see `parseVox`). `.vdb`: the first grid of 32-bit integers. `.png .jpg .jpeg`: a
-/// flat grid, one label for each colour, x to the right and y up; transparent pixels are empty.
+/// flat grid, one label for each color, x to the right and y up; transparent pixels are empty.
 ///
 /// Throws `InputError` naming the file, and the line in text, for anything malformed.
 LabelGrid readLabels(const std::filesystem::path& path, const Progress& progress = {});
 
 /// Writes a grid in the format of the path's ending, whole or not at all: `.txt` (labels, names and
-/// object lines), `.vox` (colours, 8 bits sRGB; at most 255 labels that are not empty), `.vdb` (a
-/// grid of 32-bit integers; everything, losslessly) or `.png` (flat grids; colours). The same grid
+/// object lines), `.vox` (colors, 8 bits sRGB; at most 255 labels that are not empty), `.vdb` (a
+/// grid of 32-bit integers; everything, losslessly) or `.png` (flat grids; colors). The same grid
 /// gives the same bytes. Throws `InputError` for what the format cannot hold.
 void writeLabels(const std::filesystem::path& path, const LabelGrid& grid,
                  const Progress& progress = {});
@@ -46,11 +46,11 @@ LabelGrid parseLabelText(std::string_view bytes, const std::string& name,
                          const Progress& progress = {});
 std::string formatLabelText(const LabelGrid& grid, const Progress& progress = {});
 
-/// MagicaVoxel's `.vox`, versions 150 and 200. Label 0 is empty, 1.. are the palette's colours that
-/// are used, in its order, named "colour N". The models that the scene graph shows are merged with
-/// their translations and rotations, later ones over earlier ones; without a scene graph the first
-/// model counts. Models longer than 256 cells are written as several with a scene graph, so that
-/// what is written reads back the same.
+/// MagicaVoxel's `.vox`, versions 150 and 200. Label 0 is empty, 1.. are the palette's colors that
+/// are used, in its order, named by their numbers. The models that the scene graph shows are merged
+/// with their translations and rotations, later ones over earlier ones; without a scene graph the
+/// first model counts. Models longer than 256 cells are written as several with a scene graph, so
+/// that what is written reads back the same.
 LabelGrid parseVox(std::string_view bytes, const std::string& name);
 std::string formatVox(const LabelGrid& grid, const std::string& name,
                       const Progress& progress = {});

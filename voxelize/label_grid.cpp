@@ -26,7 +26,7 @@ void validate(const LabelGrid& grid, const std::string& name) {
   if (!isFinite(grid.origin)) fail("the grid's place is NaN or infinite");
   for (const LabelLook& look : grid.labels) {
     for (const float c : look.color) {
-      if (!(c >= 0 && c <= 1)) fail("a label's colour is not 0 to 1");
+      if (!(c >= 0 && c <= 1)) fail("a label's color is not 0 to 1");
     }
   }
   for (std::size_t n = 0; n < grid.cells.count(); ++n) {

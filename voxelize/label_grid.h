@@ -44,14 +44,14 @@ struct LabelGrid {
 };
 
 /// Throws `InputError` ("NAME: ...") unless the grid has a cell, every cell's label has a look,
-/// colours are 0..1 and the cells' size and place are finite, the size positive.
+/// colors are 0..1 and the cells' size and place are finite, the size positive.
 void validate(const LabelGrid& grid, const std::string& name);
 
-/// The look of label 0 in files that do not tell: empty.
+/// The look of label 0 in files that do not describe it: empty.
 LabelLook emptyLook();
 
-/// A colour for a label whose own is not known, linear RGB and opacity 1: neighbouring numbers
-/// differ clearly, and a number has the same colour in every grid.
+/// A color for a label whose own is not known, linear RGB and opacity 1: neighboring numbers
+/// differ clearly, and a number has the same color in every grid.
 std::array<float, 4> distinctColor(int label);
 
 }  // namespace exemplar

@@ -64,16 +64,18 @@ void requireFlat(const LabelGrid& grid) {
 ImageLabels labelsFromImage(const Image8& image, const std::string& name,
                             const ImageLabelsOptions& options, const Progress& progress) {
   const int side = options.piece;
-  if (side < 1 || side > 256) throw InputError("a piece should be 1 to 256 pixels a side");
+  if (side < 1 || side > 256) {
+    throw InputError("`piece` " + std::to_string(side) + ": must be 1 to 256 pixels a side");
+  }
   if (image.width < side || image.height < side) {
     throw InputError(name + ": the picture of " + std::to_string(image.width) + " x " +
-                     std::to_string(image.height) + " pixels is smaller than a piece of " +
-                     std::to_string(side) + " x " + std::to_string(side));
+                     std::to_string(image.height) +
+                     " pixels is smaller than one piece; `piece` is " + std::to_string(side));
   }
   const int step = options.overlap ? 1 : side;
   const Vec3i size{(image.width - side) / step + 1, (image.height - side) / step + 1, 1};
   requireMemory(static_cast<double>(volume(size)) * (2 + (side > 1 ? 4.0 * side * side : 0)),
-                name + ": its pieces", "use a smaller picture or piece");
+                name + ": its pieces", "use a smaller picture or a smaller `piece`");
   ImageLabels result;
   result.options = options;
   result.grid.cells = Array3D<Label>(size);
@@ -89,7 +91,7 @@ ImageLabels labelsFromImage(const Image8& image, const std::string& name,
       if (isNew) {
         if (result.pieces.size() == static_cast<std::size_t>(kMostLabels)) {
           throw InputError(name + ": the picture has more than " + std::to_string(kMostLabels) +
-                           " different pieces; use fewer colours");
+                           " different pieces; use fewer colors or a smaller `piece`");
         }
         found->second = static_cast<Label>(result.pieces.size());
         LabelLook& look = result.grid.labels.emplace_back();
@@ -107,7 +109,7 @@ Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels, const P
   const Vec3i size = grid.size();
   const int side = labels.options.piece, step = labels.options.overlap ? 1 : side;
   const double width = (size.x - 1.0) * step + side, height = (size.y - 1.0) * step + side;
-  requireMemory(4 * width * height, "the picture", "make a smaller one");
+  requireMemory(4 * width * height, "the picture", "use a smaller `size`");
   Image8 image{static_cast<int>(width), static_cast<int>(height), 4, {}};
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height * 4);
   // Pieces that overlap cover what earlier ones laid, all but their lower left pixels.
@@ -116,7 +118,8 @@ Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels, const P
     for (int x = 0; x < size.x; ++x) {
       const Label label = grid.cells(x, y, 0);
       if (label >= labels.pieces.size()) {
-        throw InputError("label " + std::to_string(label) + " has no piece of the picture");
+        throw InputError("label " + std::to_string(label) +
+                         " is in the grid and no piece of the picture has it");
       }
       const Image8& piece = labels.pieces[label];
       for (int row = 0; row < side; ++row) {

@@ -23,7 +23,7 @@ struct ImageLabelsOptions {
 /// A picture as labels, and what each label looks like.
 struct ImageLabels {
   /// One layer; x runs to the right, y up. Labels are numbered in the order in which pieces come,
-  /// row by row from the picture's top. Their colours are those of the piece's lower left pixel
+  /// row by row from the picture's top. Their colors are those of the piece's lower left pixel
   /// where pieces overlap, else its average; a piece that is transparent throughout is empty.
   LabelGrid grid;
   ImageLabelsOptions options;
@@ -42,7 +42,7 @@ ImageLabels labelsFromImage(const Image8& image, const std::string& name,
 Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels,
                        const Progress& progress = {});
 
-/// The picture of a flat grid, a pixel for each cell in the label's own colour.
+/// The picture of a flat grid, a pixel for each cell in the label's own color.
 Image8 imageFromLabels(const LabelGrid& grid, const Progress& progress = {});
 
 }  // namespace exemplar

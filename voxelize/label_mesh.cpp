@@ -72,7 +72,7 @@ class Mesher {
   void findRectangles(int axis, bool far) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     const Vec3i size = grid_.size();
-    // Label + 1 of each face in a layer, 0 where there is none.
+    // Label + 1 of each face in a layer, 0: none.
     std::vector<std::uint32_t> faces(static_cast<std::size_t>(size[u]) * size[v]);
     const auto face = [&](int i, int j) -> std::uint32_t& {
       return faces[static_cast<std::size_t>(j) * size[u] + i];
@@ -180,7 +180,7 @@ class Mesher {
   }
 
   void addRectangle(const Rectangle& r) {
-    // The vertices along the rim, anticlockwise in (u, v), beginning at a corner.
+    // The vertices along the rim, counterclockwise in (u, v), beginning at a corner.
     std::vector<std::uint32_t> rim;
     const auto visit = [&](int u, int v) {
       const std::uint64_t key = keyAt(r, u, v);
@@ -190,7 +190,7 @@ class Mesher {
     for (int v = r.v0; v < r.v1; ++v) visit(r.u1, v);
     for (int u = r.u1; u > r.u0; --u) visit(u, r.v1);
     for (int v = r.v1; v > r.v0; --v) visit(r.u0, v);
-    // Seen along -axis, u to v turns anticlockwise: right for faces that look along +axis.
+    // Seen along -axis, u to v turns counterclockwise: right for faces that look along +axis.
     if (!r.far) std::reverse(rim.begin(), rim.end());
     const std::uint32_t material = materialOf(r.label);
     if (rim.size() == 4) {

@@ -10,16 +10,16 @@
 namespace exemplar {
 
 struct LabelMeshOptions {
-  /// Whether each label gets a closed surface of its own. Otherwise faces between two cells that
+  /// Whether each label gets its own closed surface. Otherwise faces between two cells that
   /// are not empty are left out: the outside alone, as much as a picture shows, for opaque labels.
   bool closedLabels = true;
 };
 
-/// The cells of a grid that are not empty as boxes, in the colours of their labels: one material
+/// The cells of a grid that are not empty as boxes, in the colors of their labels: one material
 /// for each label that is there, named after it or "label N".
 ///
-/// Neighbouring faces of one label in one plane are merged to rectangles, and rectangles that meet
-/// share every vertex along their rims, so that there are no cracks. The surface of each label is
+/// Neighboring faces of one label in one plane are merged to rectangles, and rectangles that meet
+/// share every vertex along their rims, so that no cracks are left. The surface of each label is
 /// then closed and faces outwards, edge for edge; cells of a label that touch along an edge or at a
 /// corner alone have vertices of their own there, so that it is manifold, too, but for edges whose
 /// both ends are joined through further cells. An empty mesh where every cell is empty. O(cells);

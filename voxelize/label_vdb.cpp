@@ -66,8 +66,8 @@ std::vector<LabelLook> looksFromText(const std::string& text, const std::string&
     }
     LabelLook& look = looks.emplace_back();
     for (float& c : look.color) {
-      const double value = scan.number("a label's colour");
-      if (!(value >= 0 && value <= 1)) scan.fail("a label's colour is not 0 to 1");
+      const double value = scan.number("a label's color");
+      if (!(value >= 0 && value <= 1)) scan.fail("a label's color is not 0 to 1");
       c = static_cast<float>(value);
     }
     look.name = std::string(scan.rest());
@@ -91,7 +91,7 @@ CoordBBox boxOf(const openvdb::Int32Grid& grid, const fs::path& path) {
   return box;
 }
 
-/// Cell size and the lowest corner of the first cell; voxels are at cells' centres.
+/// Cell size and the lowest corner of the first cell; voxels are at cells' centers.
 void readPlace(const openvdb::Int32Grid& grid, const CoordBBox& box, LabelGrid& result,
                const fs::path& path) {
   const auto& transform = grid.transform();
@@ -114,33 +114,33 @@ void readPlace(const openvdb::Int32Grid& grid, const CoordBBox& box, LabelGrid& 
 }  // namespace
 
 LabelGrid readLabelsVdb(const fs::path& path, const Progress& progress) {
-  LabelGrid result;
+  openvdb::Int32Grid::Ptr grid;
   withVdbGrids(path, [&](const openvdb::GridPtrVec& grids) {
-    openvdb::Int32Grid::Ptr grid;
     for (const auto& candidate : grids) {
       if (!grid) grid = openvdb::gridPtrCast<openvdb::Int32Grid>(candidate);
     }
-    if (!grid) fail(path, "holds no labels: it has no grid of 32-bit integers");
-    const CoordBBox box = boxOf(*grid, path);
-    readPlace(*grid, box, result, path);
-    if (const auto looks = grid->getMetadata<openvdb::StringMetadata>(kLooks)) {
-      result.labels = looksFromText(looks->value(), path.string());
+  });
+  if (!grid) fail(path, "holds no labels: it has no grid of 32-bit integers");
+  LabelGrid result;
+  const CoordBBox box = boxOf(*grid, path);
+  readPlace(*grid, box, result, path);
+  if (const auto looks = grid->getMetadata<openvdb::StringMetadata>(kLooks)) {
+    result.labels = looksFromText(looks->value(), path.string());
+  }
+  if (const auto scene = grid->getMetadata<openvdb::StringMetadata>(kScene)) {
+    result.name = scene->value();
+  }
+  const Coord size = box.dim();
+  result.cells = Array3D<Label>({size.x(), size.y(), size.z()});
+  const auto accessor = grid->getConstAccessor();
+  const double layers = result.size().z;
+  forEachCell(result.size(), [&](const Vec3i& at) {
+    if (at.x == 0 && at.y == 0) progress.report("reading labels", at.z / layers);
+    const int label = accessor.getValue(box.min().offsetBy(at.x, at.y, at.z));
+    if (label < 0 || label >= kMostLabels) {
+      fail(path, "a label should be 0 to 65535, not " + std::to_string(label));
     }
-    if (const auto scene = grid->getMetadata<openvdb::StringMetadata>(kScene)) {
-      result.name = scene->value();
-    }
-    const Coord size = box.dim();
-    result.cells = Array3D<Label>({size.x(), size.y(), size.z()});
-    const auto accessor = grid->getConstAccessor();
-    const double layers = result.size().z;
-    forEachCell(result.size(), [&](const Vec3i& at) {
-      if (at.x == 0 && at.y == 0) progress.report("reading labels", at.z / layers);
-      const int label = accessor.getValue(box.min().offsetBy(at.x, at.y, at.z));
-      if (label < 0 || label >= kMostLabels) {
-        fail(path, "a label should be 0 to 65535, not " + std::to_string(label));
-      }
-      result.cells[at] = static_cast<Label>(label);
-    });
+    result.cells[at] = static_cast<Label>(label);
   });
   const auto cells = result.cells.values();
   const std::size_t needed = std::size_t{1} + *std::max_element(cells.begin(), cells.end());

@@ -10,8 +10,8 @@
 
 namespace exemplar {
 
-/// One colour for each material of a mesh (or for the default one, where it has none), linear RGB
-/// and opacity: its base colour, times the mean of its texture where that can be decoded.
+/// One color for each material of a mesh (or for the default one, where it has none), linear RGB
+/// and opacity: its base color, times the mean of its texture where that can be decoded.
 std::vector<std::array<float, 4>> materialColors(const TriangleMesh& mesh);
 
 }  // namespace exemplar

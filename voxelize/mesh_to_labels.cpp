@@ -68,10 +68,11 @@ std::uint32_t mostSeen(const TriangleMesh& mesh, const CellCut& cut, std::size_t
 
 void checkOptions(const MeshToLabelsOptions& options) {
   if (options.resolution < 1 || options.resolution > 4096) {
-    throw InputError("the resolution of a label grid should be 1 to 4096");
+    throw InputError("`resolution` " + std::to_string(options.resolution) +
+                     ": must be 1 to 4096 cells");
   }
   if (options.air < 0 || options.air > 1024) {
-    throw InputError("the air around a label grid should be 0 to 1024 cells");
+    throw InputError("`air` " + std::to_string(options.air) + ": must be 0 to 1024 cells");
   }
 }
 
@@ -82,21 +83,22 @@ LabelGrid gridOver(const Box3d& box, const Vec3d& cellSize, int air, double slac
   Vec3i size;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(cellSize[axis] > 0) || !std::isfinite(cellSize[axis])) {
-      throw InputError("the size of a cell should be a positive number");
+      throw InputError("`cell` " + std::to_string(cellSize[axis]) + ": must be a positive number");
     }
     const double cells = std::max(1.0, std::ceil(box.size()[axis] / cellSize[axis] - slack)) +
                          (axis == 2 ? 1.0 : 2.0) * air;
     if (!(cells <= std::numeric_limits<std::int16_t>::max())) {
-      throw InputError("the grid would be longer than 32,767 cells; use larger cells");
+      throw InputError("the grid would be longer than 32,767 cells; use a larger `cell`");
     }
     size[axis] = static_cast<int>(cells);
     grid.origin[axis] = box.min[axis] - (axis == 2 ? 0 : air) * cellSize[axis];
   }
   if (volume(size) > std::numeric_limits<std::uint32_t>::max()) {
-    throw InputError("the grid would have more than 4,294,967,295 cells; use larger cells");
+    throw InputError("the grid would have more than 4,294,967,295 cells; use a larger `cell`");
   }
   grid.cellSize = cellSize;
-  requireMemory(16.0 * static_cast<double>(volume(size)), "the grid of cells", "use larger cells");
+  requireMemory(16.0 * static_cast<double>(volume(size)), "the grid of cells",
+                "use a larger `cell`");
   grid.cells = Array3D<Label>(size);
   grid.labels.push_back(emptyLook());
   return grid;
@@ -204,7 +206,10 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
   }
   for (std::size_t m = 0; m < materials; ++m) {
     if (!used[m]) continue;
-    if (grid.labelCount() == kMostLabels) throw InputError("the mesh has too many materials");
+    if (grid.labelCount() == kMostLabels) {
+      throw InputError("the mesh shows more than " + std::to_string(kMostLabels - 1) +
+                       " materials, one for each label there can be; use fewer");
+    }
     labelOf[m] = static_cast<Label>(grid.labels.size());
     LabelLook& look = grid.labels.emplace_back();
     look.name = "solid";

@@ -13,9 +13,9 @@ namespace exemplar {
 
 /// Which cells of a mesh are not empty.
 enum class VoxelFill {
-  Solid,    ///< whose centres are inside
+  Solid,    ///< whose centers are inside
   Surface,  ///< that hold a part of the surface
-  Both,     ///< either: nothing gets lost, and solids are up to half a cell thicker
+  Both,     ///< either: nothing is lost, and solids are up to half a cell thicker
 };
 
 struct MeshToLabelsOptions {
@@ -46,7 +46,7 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
 /// longer than 32,767 cells.
 LabelGrid gridOver(const Box3d& box, const Vec3d& cellSize, int air, double slack = 1e-6);
 
-/// Whether the centre of each of a grid's cells lies inside a mesh, as `meshToSdf` finds it.
+/// Whether the center of each of a grid's cells lies inside a mesh, as `meshToSdf` finds it.
 Array3D<std::uint8_t> cellsInside(const TriangleMesh& mesh, const LabelGrid& grid,
                                   const Progress& progress = {});
 

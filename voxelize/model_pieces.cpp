@@ -67,10 +67,10 @@ class PieceFinder {
   ModelPieces find(const Progress& progress) {
     validate(mesh_, "the mesh");
     if (!(options_.tolerance >= 1e-7 && options_.tolerance <= 0.1)) {
-      throw InputError("the tolerance of equal pieces should be 1e-7 to 0.1 cells");
+      throw InputError("`tolerance`: must be 1e-7 to 0.1 cells");
     }
     if (options_.air < 0 || options_.air > 1024) {
-      throw InputError("the air around the pieces should be 0 to 1024 cells");
+      throw InputError("`air` " + std::to_string(options_.air) + ": must be 0 to 1024 cells");
     }
     result_.tolerance = options_.tolerance;
     result_.grid = gridOver(options_.box.value_or(boundingBox(mesh_)), options_.cellSize,
@@ -123,7 +123,7 @@ class PieceFinder {
     const Label found = known(shape);
     if (found != ModelPieces::kNone) return found;
     if (shapes_.size() + 1 >= ModelPieces::kNone) {
-      throw InputError("the mesh has more than 65,533 different pieces; use larger cells");
+      throw InputError("the mesh has more than 65,533 different pieces; use a larger `cell`");
     }
     const auto label = static_cast<Label>(shapes_.size());
     bySize_[shape.count()].push_back(label);
@@ -230,7 +230,7 @@ class PieceFinder {
     bool any = false;
     for (std::size_t c = 0; c < inside.count(); ++c) {
       if (!inside.values()[c] || result_.grid.cells.values()[c] != 0) continue;
-      // In the colour of the piece below or beside it that comes first.
+      // In the color of the piece below or beside it that comes first.
       if (!any && c > 0) look = result_.grid.labels[result_.grid.cells.values()[c - 1]];
       result_.grid.cells.values()[c] = label;
       any = true;

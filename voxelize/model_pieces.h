@@ -31,22 +31,22 @@ struct ModelPieces {
 
   /// Label 0 is empty; the next ones are pieces in the order in which they come, x fastest, from
   /// the bottom; cells without triangles that lie inside the mesh have a label "inside", so that a
-  /// result's solids stay filled. Colours are those of the materials, by area.
+  /// result's solids stay filled. Colors are those of the materials, by area.
   LabelGrid grid;
   /// All pieces' triangles, in world units from their cell's corner, with the example's materials,
-  /// textures, texture coordinates and colours.
+  /// textures, texture coordinates and colors.
   TriangleMesh mesh;
   std::vector<std::uint32_t> first;  ///< each label's first triangle in `mesh`, and their number
   double tolerance = 1e-4;           ///< that pieces were compared with, in cells
 
-  /// The piece that each label is when mirrored across x or y, or turned a quarter anticlockwise
+  /// The piece that each label is when mirrored across x or y, or turned a quarter counterclockwise
   /// about z; `kNone` where the example has none. Turning needs cells that are square seen from
   /// above.
   std::vector<Label> mirroredX, mirroredY, turned;
 };
 
 /// Cuts a mesh along a grid and finds the pieces that are equal: of the same materials, shape,
-/// texture coordinates and colours, wherever their triangles' vertices lie in the order of the file
+/// texture coordinates and colors, wherever their triangles' vertices lie in the order of the file
 /// and however flat parts are cut into triangles. Cost: about 10 microseconds a part that the grid
 /// cuts a triangle into, and comparisons of pieces of equally many edges. Deterministic. Throws
 /// `InputError` for a mesh that does not `validate`, options out of range, more than 65,534 pieces,
@@ -55,7 +55,7 @@ ModelPieces cutIntoPieces(const TriangleMesh& mesh, const ModelPiecesOptions& op
                           const Progress& progress = {});
 
 /// Puts pieces back where a grid of their labels has them. Points on the sides of cells that are as
-/// near as equal pieces are become one; where a cell's edge ends along a neighbour's, that one is
+/// near as equal pieces are become one; where a cell's edge ends along a neighbor's, that one is
 /// divided, so that no cracks are left where pieces fit. `cellOf`, where given, receives the grid's
 /// cell (an index) that each triangle came from. O(triangles). Throws `InputError` where the grid
 /// has labels that are no pieces, where the result would have no triangle, or would not fit in

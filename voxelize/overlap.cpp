@@ -39,7 +39,7 @@ bool agree(const Shared& a, const Shared& b, float tolerance) {
   return true;
 }
 
-// How often labels stand a stride apart in the example, by `first` times 65536 plus `second`.
+// How often labels are a stride apart in the example, by `first` times 65536 plus `second`.
 std::vector<std::uint64_t> shownPairs(const FieldBlocks& blocks, int axis) {
   std::vector<std::uint64_t> pairs;
   Vec3i step{};
@@ -57,7 +57,7 @@ std::vector<std::uint64_t> shownPairs(const FieldBlocks& blocks, int axis) {
 
 Adjacency overlapAdjacency(const Array3D<float>& values, const FieldBlocks& blocks,
                            const Progress& progress) {
-  // Frequencies, and what stands at the sides, are those of the grid.
+  // Frequencies, and the labels at the sides, are those of the grid.
   Adjacency adjacency = findAdjacency(blocks.grid);
   const std::size_t labels = blocks.members.size();
   for (int axis = 0; axis < 3; ++axis) {

@@ -8,8 +8,8 @@
 
 namespace exemplar {
 
-/// The adjacency of blocks that overlap: along each axis that has several blocks, which may stand a
-/// stride from which. `values` is the field that they were cut from, in voxels and truncated; of
+/// The adjacency of blocks that overlap: along each axis that has several blocks, which may be a
+/// stride apart. `values` is the field that they were cut from, in voxels and truncated; of
 /// `blocks` all but the adjacency is there. First blocks of labels are compared, each pair whose
 /// shared samples agree on average: O(labels² × shared samples) at worst. Deterministic; parallel.
 Adjacency overlapAdjacency(const Array3D<float>& values, const FieldBlocks& blocks,

@@ -13,14 +13,14 @@
 
 namespace exemplar {
 
-/// What a cell of a cut mesh holds, in a form that does not tell how it is cut into triangles, in
-/// which order these come or how often an edge is divided: for each material and plane the rim of
-/// what is covered there, as straight pieces of the greatest length.
+/// What a cell of a cut mesh holds, in a form that does not depend on how it is cut into triangles,
+/// in which order these come or how often an edge is divided: for each material and plane the rim
+/// of what is covered there, as straight pieces of the greatest length.
 class PieceShape {
  public:
   PieceShape() = default;
   /// The shape of cell `cell` (an index, x fastest). Texture coordinates count where a material has
-  /// a texture, vertex colours where the mesh has them. Of a cell with more than 4,000 parts every
+  /// a texture, vertex colors where the mesh has them. Of a cell with more than 4,000 parts every
   /// part counts as it is cut. Cost: mostly O(p) for p parts, O(p²) where all lie in different
   /// planes.
   PieceShape(const TriangleMesh& mesh, const CellCut& cut, std::size_t cell, double tolerance);
@@ -29,12 +29,12 @@ class PieceShape {
   std::size_t count() const { return rim_.size(); }
 
   /// Whether two shapes are equal but for `tolerance` cells (and 1/500 in texture coordinates and
-  /// colours).
+  /// colors).
   bool equals(const PieceShape& other, double tolerance) const;
 
   /// The mirror image across the middle plane of the cell across `axis` (0 or 1).
   PieceShape mirrored(int axis) const;
-  /// Turned a quarter anticlockwise about the vertical axis through the cell's middle.
+  /// Turned a quarter counterclockwise about the vertical axis through the cell's middle.
   PieceShape turned() const;
 
  private:

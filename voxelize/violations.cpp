@@ -11,7 +11,7 @@ namespace exemplar {
 namespace {
 
 /// Calls `visit(frame, cell, other frame, other cell)` for every pair of cells of a sequence of
-/// grids that stand at `offset` from each other.
+/// grids that are `offset` from each other.
 template <class Visit>
 void forEachPair(std::span<const LabelGrid> grids, const CellOffset& offset, const Axes& periodic,
                  bool sequence, bool loop, const Progress& progress, const Visit& visit) {

@@ -29,7 +29,7 @@ std::string chunk(const char* id, const std::string& content, const std::string&
   return out + content + children;
 }
 
-/// The palette's colour of each label: itself where the numbers suffice, else those that cells have
+/// The palette's color of each label: itself where the numbers suffice, else those that cells have
 /// from 1 on; 0 for what is empty.
 std::vector<int> colorsOf(const LabelGrid& grid, const std::string& name) {
   std::vector<int> color(grid.labels.size(), 0);
@@ -46,9 +46,8 @@ std::vector<int> colorsOf(const LabelGrid& grid, const std::string& name) {
     if (used[label] && !isEmpty(grid.labels[label])) color[label] = ++next;
   }
   if (next > kMostColors) {
-    throw InputError(
-        name + ": the grid has " + std::to_string(next) +
-        " labels that are not empty, and a .vox has 255 colours; write a .txt or .vdb");
+    throw InputError(name + ": the grid has " + std::to_string(next) +
+                     " labels that are not empty, and a .vox has 255 colors; write a .txt or .vdb");
   }
   return color;
 }
@@ -104,7 +103,7 @@ std::string sceneChunks(const Vec3i& size, const std::vector<Vec3i>& corners) {
     std::string translation;
     for (int axis = 0; axis < 3; ++axis) {
       const int low = corners[n][axis], high = std::min(low + kModelSide, size[axis]);
-      // The scene stands on the ground, around the origin.
+      // The scene rests on the ground, around the origin.
       const int shift = axis == 2 ? 0 : size[axis] / 2;
       translation += (axis ? " " : "") + std::to_string(low + (high - low) / 2 - shift);
     }

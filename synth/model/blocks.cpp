@@ -153,7 +153,7 @@ bool BlockPass::accepted(const Region& region, int block, int round) const {
          std::exp(gain);
 }
 
-/// Labels a block anew; `labels_` changes where that succeeds and is accepted.
+/// Relabels a block; `labels_` changes where that succeeds and is accepted.
 BlockPass::Change BlockPass::modify(int block, int round) {
   Change change;
   Region& region = regions_.local();

@@ -11,7 +11,7 @@
 namespace exemplar {
 
 /// Modifies a consistent labeling in blocks that overlap by half along all axes (thesis, Algorithm
-/// 3.4). Each block is a `Region`: taken back and labeled anew, by plain propagation first, then by
+/// 3.4). Each block is a `Region`: taken back and relabeled, by plain propagation first, then by
 /// search with backjumping, then exactly. A block for which all of these fail stays as it was, so
 /// the labeling is consistent throughout.
 ///

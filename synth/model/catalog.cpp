@@ -94,7 +94,7 @@ const LabelWord* Catalog::rememberedSupport(const LabelWord* set) {
   }
   LabelWord* known = remembered_.data() + hash % kRemembered * rememberedWords();
   LabelWord* support = known + words_;
-  // The empty set, which no cell holds here, stands for a place that is not taken.
+  // The empty set, which no cell holds here, marks a place that is not taken.
   if (std::equal(set, set + words_, known)) return support;
   std::copy(set, set + words_, known);
   std::fill_n(support, static_cast<std::size_t>(words_) * network_->slots, 0);

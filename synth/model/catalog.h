@@ -13,7 +13,7 @@
 namespace exemplar {
 
 /// The catalog C of possible assignments (thesis, section 3.3.2): for each cell of a network the
-/// set of labels that may still stand there, kept arc consistent: a label stays only while each
+/// set of labels that it may still take, kept arc consistent: a label stays only while each
 /// neighbor has a label that supports it (statement 3.6).
 ///
 /// Sets are bits; a cell's set is propagated as the union of its labels' support rows, which ends
@@ -42,7 +42,7 @@ class Catalog {
 
   /// Replaces a cell's set, without propagating: `touch` it and its neighbors.
   void setDomain(int cell, std::span<const LabelWord> labels);
-  /// Lets a cell's neighbors hear, at the next `propagate`, of what it does not hold.
+  /// Has the next `propagate` take from a cell's neighbors what it does not support.
   void touch(int cell) { push(cell, kNoSlot); }
   /// Touches every cell and propagates. Throws `Cancelled`, as `propagate` does.
   bool propagateAll(const Progress& progress = {});
@@ -52,7 +52,7 @@ class Catalog {
   bool assign(int cell, int label);
   bool remove(int cell, int label);
   /// Restores arc consistency; false where a cell has lost its last label: `contradiction` names
-  /// it, and the sets between are as they were left: undo, or set them anew.
+  /// it, and sets that were on the way are as propagation left them: undo, or set them again.
   bool propagate(const Progress& progress = {});
   int contradiction() const { return contradiction_; }
 

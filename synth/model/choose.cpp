@@ -86,7 +86,7 @@ void LabelChooser::countShares() {
 
 void LabelChooser::countPlaces(std::span<const LabelGrid> examples, const Progress& progress) {
   for (int which = 0; which < 8; ++which) {
-    if (std::popcount(static_cast<unsigned>(which)) < 2) continue;  // shares tell of single ones
+    if (std::popcount(static_cast<unsigned>(which)) < 2) continue;  // single ones are in `shares_`
     std::vector<std::uint64_t> found;
     for (const LabelGrid& e : examples) {
       forEachCell(e.size(), [&](const Vec3i& p) {
@@ -113,8 +113,8 @@ void LabelChooser::countPlaces(std::span<const LabelGrid> examples, const Progre
   }
 }
 
-/// Multiplies the weight of each label by how often it stands where its neighbors at -x, -y and -z
-/// are those in place; where the examples do not show that, by its frequency and each of these
+/// Multiplies the weight of each label by how often it occurs beside the neighbors at -x, -y and -z
+/// that are in place; where the examples do not show that, by its frequency and each of these
 /// neighbors by itself, P(b) times P(a | b). Neighbors on the other sides, further away, and in
 /// other frames always count by themselves.
 void LabelChooser::weighByNeighbors(int cell, std::span<const LabelWord> labels,

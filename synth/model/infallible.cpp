@@ -27,7 +27,7 @@ std::array<int, 3> axisRules(const Adjacency& adjacency) {
   return rules;
 }
 
-/// Whether there are rules beside those of the axes: the proofs do not cover them.
+/// Whether all rules are those of the axes: the proofs cover no others.
 bool onlyAxes(const Adjacency& adjacency) {
   return std::all_of(adjacency.rules.begin(), adjacency.rules.end(), [](const PairRule& r) {
     const CellOffset& o = r.offset;
@@ -89,7 +89,7 @@ class RegionList {
     last_ = index(last);
   }
 
-  /// False where the new cell may be left without labels, or there are too many regions.
+  /// False where the new cell may be left without labels, or after too many regions.
   bool proved() { return extend(0); }
 
  private:

@@ -15,7 +15,7 @@ namespace exemplar {
 std::int64_t limitsMissed(const ModelProblem& problem, const std::vector<Label>& labels);
 
 /// Changes a consistent labeling until limits on counts and connectedness are met: a `Region` where
-/// one is broken is labeled anew, with the labels in question left out or put in, and kept unless
+/// one is broken is relabeled, with the labels in question left out or put in, and kept unless
 /// the limits are then missed by more. Unfinished after `ModelOptions::budget` tries, or two
 /// thousand without a gain. Each labeling on the way is consistent. Throws `Cancelled`.
 Labeling meetLimits(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,

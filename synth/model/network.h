@@ -39,8 +39,8 @@ inline void addLabel(std::span<LabelWord> set, int label) {
   set[label / 64] |= LabelWord{1} << (label % 64);
 }
 
-/// Rows of label sets: row b of a support table holds the labels that may stand at the far end of a
-/// link when b stands at the near one.
+/// Rows of label sets: row b of a support table holds the labels that the far end of a link
+/// may have when the near one has b.
 class LabelSets {
  public:
   LabelSets() = default;
@@ -64,7 +64,7 @@ class LabelSets {
   std::vector<LabelWord> data_;
 };
 
-/// Cells, their neighbors, and which labels may stand on neighbors: what model synthesis solves,
+/// Cells, their neighbors, and which labels neighbors may have: what model synthesis solves,
 /// whatever the grid looks like (periodic, with holes, hexagonal, symmetric, changing over time).
 ///
 /// Relations come in pairs: relation r ^ 1 is r seen from the far end. Relation r of the first
@@ -78,7 +78,7 @@ struct LabelNetwork {
   int labels = 0;
   int cells = 0;
   int slots = 0;                        ///< neighbors of a cell that follow a rule; even
-  std::vector<std::int32_t> neighbor;   ///< cells × slots; where there is none: `cells`
+  std::vector<std::int32_t> neighbor;   ///< cells × slots; `cells`: none
   std::vector<LabelSets> support;       ///< one a relation, each with `labels` rows
   std::vector<std::int32_t> linkBegin;  ///< empty, or cells + 1: links beside the slots
   std::vector<Link> links;
@@ -93,7 +93,7 @@ struct LabelNetwork {
     return {links.data() + linkBegin[cell],
             static_cast<std::size_t>(linkBegin[cell + 1] - linkBegin[cell])};
   }
-  /// Calls `visit(neighbor, relation)` for each neighbor that there is.
+  /// Calls `visit(neighbor, relation)` for each neighbor.
   template <class Visit>
   void forEachNeighbor(int cell, const Visit& visit) const {
     const auto near = neighbors(cell);

@@ -48,7 +48,9 @@ int agreement(const Surroundings& a, const Surroundings& b) {
 
 Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples,
                     const Progress& progress) {
-  if (examples.size() > 255) throw InputError("origins hold 255 examples at most");
+  if (examples.size() > 255)
+    throw InputError("there are " + std::to_string(examples.size()) +
+                     " examples, and origins can name 255; use fewer");
   progress.report("finding origins", 0);
   struct Place {
     Surroundings around;
@@ -59,7 +61,9 @@ Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples,
   for (std::size_t e = 0; e < examples.size(); ++e) {
     const Vec3i n = examples[e].size();
     if (std::max({n.x, n.y, n.z}) > 32767) {
-      throw InputError("an example is longer than 32767 cells");
+      throw InputError(
+          "an example is longer than the 32,767 cells that origins can name; use a "
+          "smaller one");
     }
     places.resize(std::max<std::size_t>(places.size(), examples[e].labels.size()));
     forEachCell(n, [&](const Vec3i& p) {
@@ -84,7 +88,7 @@ Origins findOrigins(const LabelGrid& grid, std::span<const LabelGrid> examples,
   };
   for (const Label b : grid.cells.values()) {
     if (b >= places.size() || places[b].empty()) {
-      throw InputError("no example has label " + std::to_string(b));
+      throw InputError("label " + std::to_string(b) + " is in the grid and in no example");
     }
   }
 

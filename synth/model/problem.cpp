@@ -103,24 +103,28 @@ void ModelProblem::checkOptions() const {
   const Adjacency& a = *adjacency_;
   const auto label = [&](Label b, const std::string& where) {
     if (b >= a.labelCount) {
-      throw InputError(where + " names label " + std::to_string(b) + " and the example has " +
+      throw InputError(where + ": names label " + std::to_string(b) + " and the example has " +
                        std::to_string(a.labelCount) + " labels, 0 to " +
                        std::to_string(a.labelCount - 1));
     }
   };
   if (o.size.x < 1 || o.size.y < 1 || o.size.z < 1) {
-    throw InputError("the size " + words(o.size) + " is not positive");
+    throw InputError("`size` " + words(o.size) + ": each side must be 1 or more");
   }
-  if (o.frames < 1) throw InputError("the number of frames must be at least 1");
+  if (o.frames < 1)
+    throw InputError("`frames` " + std::to_string(o.frames) + ": must be 1 or more");
   if (volume(o.size) > std::int64_t{1} << 30 || volume(o.size) * o.frames > std::int64_t{1} << 30) {
-    throw InputError("a result of " + words(o.size) + " cells is too large; 2^30 is the most");
+    throw InputError("`size` " + words(o.size) + ": too large; a result has at most 2^30 cells");
   }
   if (o.block.x < 2 || o.block.y < 2 || o.block.z < 2) {
-    throw InputError("a block of " + words(o.block) + " is too small; each side must be 2 or more");
+    throw InputError("`block` " + words(o.block) + ": each side must be 2 or more");
   }
-  if (o.rounds < 1 || o.rounds > 100) throw InputError("rounds must be 1 to 100");
-  if (o.budget < 1) throw InputError("the budget must be at least 1");
-  if (o.patience < 0) throw InputError("the patience must be at least 0");
+  if (o.rounds < 1 || o.rounds > 100)
+    throw InputError("`rounds` " + std::to_string(o.rounds) + ": must be 1 to 100");
+  if (o.budget < 1)
+    throw InputError("`budget` " + std::to_string(o.budget) + ": must be 1 or more");
+  if (o.patience < 0)
+    throw InputError("`patience` " + std::to_string(o.patience) + ": must be 0 or more");
 
   for (const PairRule& r : a.rules) {
     if (!r.pairs.empty()) continue;
@@ -128,76 +132,76 @@ void ModelProblem::checkOptions() const {
     const bool flat = (f.x == 0 || o.size.x == 1) && (f.y == 0 || o.size.y == 1) &&
                       (f.z == 0 || o.size.z == 1) && (f.t == 0 || o.frames == 1);
     if (!flat || (f.x == 0 && f.y == 0 && f.z == 0 && f.t == 0)) {
-      throw InputError(std::string("the example is one cell thick along ") +
-                       (f.x   ? "x"
-                        : f.y ? "y"
-                        : f.z ? "z"
-                              : "time") +
-                       ", so the result must be too; its size is " + words(o.size));
+      const std::string axis = f.x ? "x" : f.y ? "y" : f.z ? "z" : "time";
+      throw InputError("`size` " + words(o.size) + ": the example is one cell thick along " + axis +
+                       ", so the result must be one cell thick there, too");
     }
   }
   const bool timed = std::any_of(a.rules.begin(), a.rules.end(),
                                  [](const PairRule& r) { return r.offset.t != 0; });
   if (o.frames > 1 && !timed) {
-    throw InputError("several frames need an example of several frames");
+    throw InputError("`frames` " + std::to_string(o.frames) +
+                     ": the example has no frames; several frames need an example of several");
   }
 
   for (std::size_t i = 0; i < o.pins.size(); ++i) {
     const PinnedCell& p = o.pins[i];
-    const std::string name = "pin " + std::to_string(i + 1);
+    const std::string name = "`pin` number " + std::to_string(i + 1);
     if (p.cell.x < 0 || p.cell.y < 0 || p.cell.z < 0 || p.cell.x >= o.size.x ||
         p.cell.y >= o.size.y || p.cell.z >= o.size.z || p.frame < 0 || p.frame >= o.frames) {
-      throw InputError(name + " is at (" + std::to_string(p.cell.x) + ", " +
+      throw InputError(name + ": cell (" + std::to_string(p.cell.x) + ", " +
                        std::to_string(p.cell.y) + ", " + std::to_string(p.cell.z) +
-                       "), outside the result of " + words(o.size) + " cells");
+                       ") is outside the result of " + words(o.size) + " cells");
     }
-    if (p.labels.empty()) throw InputError(name + " allows no label");
+    if (p.labels.empty()) throw InputError(name + ": allows no label; name one or more");
     for (const Label b : p.labels) label(b, name);
   }
   if (!o.mask.empty() && o.mask.size() != o.size) {
-    throw InputError("the mask is " + words(o.mask.size()) + " cells and the result " +
+    throw InputError("`mask`: it is " + words(o.mask.size()) + " cells and the result is " +
                      words(o.size) + "; they must be the same size");
   }
   for (std::size_t i = 0; i < o.pins.size() && !o.mask.empty(); ++i) {
     if (o.mask[o.pins[i].cell] == 0) {
-      throw InputError("pin " + std::to_string(i + 1) + " is in a hole of the mask");
+      throw InputError("`pin` number " + std::to_string(i + 1) +
+                       ": its cell is in a hole of `mask`");
     }
   }
   if (!o.weights.empty() && static_cast<int>(o.weights.size()) != a.labelCount) {
-    throw InputError("there are " + std::to_string(o.weights.size()) + " weights and " +
-                     std::to_string(a.labelCount) + " labels");
+    throw InputError("`weight`: there are " + std::to_string(o.weights.size()) + " weights and " +
+                     std::to_string(a.labelCount) + " labels; give one weight for each label");
   }
   for (const double w : o.weights) {
-    if (!(w >= 0) || !std::isfinite(w)) throw InputError("weights must be 0 or more, and finite");
+    if (!(w >= 0) || !std::isfinite(w)) throw InputError("`weight`: must be 0 or more, and finite");
   }
   for (const WeightMap& m : o.weightMaps) {
-    for (const Label b : m.labels) label(b, "a weight map");
+    for (const Label b : m.labels) label(b, "`weight-map`");
     const Vec3i s = m.weight.size();
     if (s.x != o.size.x || s.y != o.size.y || (s.z != o.size.z && s.z != 1)) {
-      throw InputError("a weight map is " + words(s) + " cells and the result " + words(o.size) +
-                       "; they must be the same size, or the map 1 high");
+      throw InputError("`weight-map`: it is " + words(s) + " cells and the result is " +
+                       words(o.size) + "; they must be the same size, or the map 1 high");
     }
     for (const float w : m.weight.values()) {
       if (!(w >= 0) || !std::isfinite(w)) {
-        throw InputError("weight maps must be 0 or more everywhere, and finite");
+        throw InputError("`weight-map`: must be 0 or more everywhere, and finite");
       }
     }
   }
   for (const SideRule& s : o.sides) {
-    for (const Label b : s.labels) label(b, "a rule for a side");
+    for (const Label b : s.labels) label(b, "`side`");
     if (s.kind == SideRule::Kind::Labels && s.labels.empty()) {
-      throw InputError("a rule for a side allows no label");
+      throw InputError("`side`: allows no label; name one or more");
     }
   }
   for (const CountLimit& c : o.counts) {
-    for (const Label b : c.labels) label(b, "a limit on counts");
+    for (const Label b : c.labels) label(b, "`count`");
     if (c.least < 0 || (c.most && *c.most < c.least)) {
-      throw InputError("a limit on counts asks for at least " + std::to_string(c.least) +
-                       " and at most " + std::to_string(c.most.value_or(0)));
+      throw InputError("`count`: at least " + std::to_string(c.least) + " and at most " +
+                       (c.most ? std::to_string(*c.most) : "any number") +
+                       " exclude each other; the least must be 0 or more and not above the most");
     }
   }
   for (const auto& set : o.connected) {
-    for (const Label b : set) label(b, "a set of connected labels");
+    for (const Label b : set) label(b, "`connect`");
   }
 }
 
@@ -306,13 +310,15 @@ void ModelProblem::buildCells(const Progress& progress) {
     cellOf_[at] = cell;
     if (!symmetric) continue;
 
-    // The first element that takes the cell to an image says what stands there; those that take
+    // The first element that takes the cell to an image determines its label; those that take
     // the cell to itself, or twice to one image, must agree on it.
     allowed.assign(wordsForLabels(labels), ~LabelWord{0});
     orbit.clear();
     images(at, [&](std::int64_t there, int e) {
       if (hole(there)) {
-        throw InputError("the mask is not symmetric; make it so, or the result less symmetric");
+        throw InputError(
+            "`mask`: it is less symmetric than the result; make it symmetric, or ask for "
+            "less symmetry");
       }
       int first = -1;
       for (const auto& [q, f] : orbit) {
@@ -333,7 +339,7 @@ void ModelProblem::buildCells(const Progress& progress) {
     });
     unary.insert(unary.end(), allowed.begin(), allowed.end());
   }
-  if (positionOf_.empty()) throw InputError("the mask leaves no cell");
+  if (positionOf_.empty()) throw InputError("`mask`: it leaves no cell; every cell is a hole");
   if (!symmetric) return;
   unary_ = LabelSets(labels, positionOf_.size());
   std::copy(unary.begin(), unary.end(), unary_.data());

@@ -21,7 +21,7 @@ struct ModelDemands {
 
 /// A request as a network: cells in column order (x outermost, then y, z, time), each with the
 /// labels that the request alone leaves it. Holes are no cells, and of cells that are images of
-/// each other there is one.
+/// each other only one is a cell.
 class ModelProblem {
  public:
   /// Both arguments must outlive the problem. Throws `InputError` as `synthesizeModel` does.
@@ -45,8 +45,8 @@ class ModelProblem {
   /// The first position of a network's cell.
   std::int64_t positionOf(int cell) const { return positionOf_[cell]; }
   /// The cells of the network in a box of the grid and in the frames from `first` to before `last`,
-  /// ascending, each once. What reaches over a periodic side, or the end of a loop, goes on at the
-  /// other one; over other sides there is nothing. O(positions).
+  /// ascending, each once. What reaches over a periodic side, or the end of a loop, continues at
+  /// the other one; what reaches over other sides is left out. O(positions).
   std::vector<std::int32_t> cellsIn(const CellBox& box, int first, int last) const;
   /// The same: the cells up to `reach` steps away from one, along each axis and in time.
   std::vector<std::int32_t> cellsAround(int cell, int reach) const;
@@ -78,7 +78,7 @@ class ModelProblem {
   std::vector<std::int32_t> cellOf_;
   std::vector<std::int64_t> positionOf_;
   std::vector<std::uint8_t> imageOf_;
-  LabelSets unary_;  // what symmetry alone leaves; without rows where there is none
+  LabelSets unary_;  // what symmetry alone leaves; without rows where it is not symmetric
 };
 
 }  // namespace exemplar

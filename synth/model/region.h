@@ -18,7 +18,7 @@
 namespace exemplar {
 
 /// How hard a region is worked on. The ways are tried in this order until one succeeds; each
-/// attempt starts again from the same sets, with random numbers of its own.
+/// attempt starts again from the same sets, with its own random numbers.
 struct RegionEffort {
   int passes = 1;    ///< in order, each label that fails taken away (`labelInOrder`)
   int searches = 1;  ///< with conflict-directed backjumping (`searchLabels`)
@@ -39,7 +39,7 @@ struct RegionChoice {
   std::function<bool()> fits;
 };
 
-/// Some cells of a labeled network, taken back and labeled anew within what surrounds them: the
+/// Some cells of a labeled network, taken back and relabeled within what surrounds them: the
 /// move with which contradictions are repaired (`labelWhole`), blocks modified (`labelInBlocks`;
 /// thesis, Algorithm 3.4) and limits met (`meetLimits`).
 ///
@@ -93,7 +93,7 @@ class Region {
                   const Progress& progress = {});
   /// After Complete, and while `RegionChoice::fits` is asked: the label found for cell number i.
   Label label(int i) const { return found_[i]; }
-  /// The label in place at a cell of the network, or -1: what stands around the region, and what
+  /// The label in place at a cell of the network, or -1: what surrounds the region, and what
   /// the attempt under way has decided within it.
   const std::function<int(int cell)>& placed() const { return placed_; }
 

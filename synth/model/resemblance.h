@@ -14,7 +14,7 @@ namespace exemplar {
 
 /// How well each label would make a cell's surroundings resemble the example (Merrell 2007, section
 /// 3.3): the number of places in the example whose 3 x 3 x 3 cells around the label differ from
-/// what stands around the cell in no more cells than the best such place of any label does.
+/// what is around the cell in no more cells than the best such place of any label does.
 class Resemblance {
  public:
   Resemblance(const ModelProblem& problem, std::span<const LabelGrid> examples,

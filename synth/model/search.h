@@ -29,7 +29,7 @@ bool labelInOrder(Catalog& catalog, std::span<const std::int32_t> order, const C
 /// that is, and takes its label away.
 ///
 /// The catalog must be arc consistent, without marks. When Complete it holds the solution; when
-/// Impossible there is none; otherwise more than `conflicts` cells were left without labels, and
+/// Impossible none exists; otherwise more than `conflicts` cells were left without labels, and
 /// the catalog is back where it was but for labels that were shown not to work.
 Outcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order,
                      const ChooseLabel& choose, std::int64_t conflicts,

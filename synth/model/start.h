@@ -12,7 +12,7 @@
 
 namespace exemplar {
 
-/// A consistent labelling to begin with: a column of cells, or a tile of up to three by three of
+/// A consistent labeling to begin with: a column of cells, or a tile of up to three by three of
 /// them, that repeats along x and y and meets every demand. The thesis takes the example's corner
 /// or empty space for granted (section 3.3.6); here tiles are searched, smallest first, exactly
 /// where propagation does not decide. None: no tile of these sizes does.
@@ -21,7 +21,7 @@ std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, co
                                                  ModelStatistics& statistics,
                                                  const Progress& progress);
 
-/// Whether every pair of neighbors in the network may stand side by side.
+/// Whether every pair of neighbors in the network is allowed.
 bool consistent(const LabelNetwork& network, const std::vector<Label>& labels);
 
 }  // namespace exemplar

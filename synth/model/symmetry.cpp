@@ -19,9 +19,8 @@ std::vector<Label> completed(const std::vector<Label>& table, int labels, const 
     return images;
   }
   if (static_cast<int>(table.size()) != labels) {
-    throw InputError(std::string("the table of ") + name + " labels has " +
-                     std::to_string(table.size()) + " entries and the example has " +
-                     std::to_string(labels) + " labels");
+    throw InputError("`" + std::string(name) + "`: the table has " + std::to_string(table.size()) +
+                     " entries and the example has " + std::to_string(labels) + " labels");
   }
   for (int b = 0; b < labels; ++b) {
     images[b] = table[b] < labels ? table[b] : SymmetryGroup::kNoImage;
@@ -42,26 +41,27 @@ std::vector<Label> composed(const std::vector<Label>& second, const std::vector<
 SymmetryGroup::SymmetryGroup(const ModelSymmetry& symmetry, const Vec3i& size, int labels)
     : size_(size) {
   if (symmetry.turns != 1 && symmetry.turns != 2 && symmetry.turns != 4) {
-    throw InputError("turns is " + std::to_string(symmetry.turns) + "; it can be 1, 2 or 4");
+    throw InputError("`turns` " + std::to_string(symmetry.turns) + ": must be 1, 2 or 4");
   }
   if (symmetry.turns == 4 && size.x != size.y) {
-    throw InputError("a result alike after quarter turns must be as wide as deep, not " +
-                     std::to_string(size.x) + " x " + std::to_string(size.y));
+    throw InputError(
+        "`turns` 4: a result that is the same after quarter turns must be as wide as "
+        "deep, not " +
+        std::to_string(size.x) + " x " + std::to_string(size.y) + "; change `size`");
   }
   for (int axis = 0; axis < 3; ++axis) {
     if (symmetry.copies[axis] < 1 || size[axis] % symmetry.copies[axis] != 0) {
-      throw InputError(std::to_string(symmetry.copies[axis]) +
-                       " copies do not divide the size of " + std::to_string(size[axis]) +
-                       " cells");
+      throw InputError("`copies` " + std::to_string(symmetry.copies[axis]) +
+                       ": they do not divide the size of " + std::to_string(size[axis]) + " cells");
     }
   }
 
   std::vector<Element> generators;
   if (symmetry.mirrorX) {
-    generators.push_back({-1, 0, 0, 1, completed(symmetry.mirroredX, labels, "mirrored")});
+    generators.push_back({-1, 0, 0, 1, completed(symmetry.mirroredX, labels, "mirrored-x")});
   }
   if (symmetry.mirrorY) {
-    generators.push_back({1, 0, 0, -1, completed(symmetry.mirroredY, labels, "mirrored")});
+    generators.push_back({1, 0, 0, -1, completed(symmetry.mirroredY, labels, "mirrored-y")});
   }
   if (symmetry.turns > 1) {
     Element turn{0, -1, 1, 0, completed(symmetry.turned, labels, "turned")};
@@ -86,7 +86,7 @@ SymmetryGroup::SymmetryGroup(const ModelSymmetry& symmetry, const Vec3i& size, i
           if (next.labels[b] == kNoImage) continue;
           if (other.labels[b] == kNoImage || other.labels[b] == next.labels[b]) continue;
           throw InputError(
-              "the tables of mirrored and turned labels contradict each other at label " +
+              "`mirrored-x`, `mirrored-y` and `turned` contradict each other at label " +
               std::to_string(b));
         }
       }

@@ -16,9 +16,9 @@ struct ModelSymmetry {
   bool mirrorX = false;   ///< left and right of the middle plane across x are mirror images
   bool mirrorY = false;   ///< front and back of the middle plane across y are mirror images
   int turns = 1;          ///< 1, 2 or 4: alike after a half or a quarter turn about z
-  Vec3i copies{1, 1, 1};  ///< along each axis so many equal parts; each divides the size there
+  Vec3i copies{1, 1, 1};  ///< equal parts along each axis; each divides the size there
 
-  /// What each label becomes when mirrored across x or y, or turned a quarter anticlockwise; a
+  /// What each label becomes when mirrored across x or y, or turned a quarter counterclockwise; a
   /// label whose entry is not a label has no image and does not occur where it would need one.
   /// Empty: each label is its own image.
   std::vector<Label> mirroredX, mirroredY, turned;

@@ -34,11 +34,11 @@ void checkMemory(const Adjacency& adjacency, const ModelOptions& o) {
                 "a result of " + std::to_string(o.size.x) + " x " + std::to_string(o.size.y) +
                     " x " + std::to_string(o.size.z) + " cells with " +
                     std::to_string(adjacency.labelCount) + " labels",
-                "make it smaller");
+                "use a smaller `size`");
 }
 
 void checkExamples(std::span<const LabelGrid> examples, const Adjacency& adjacency) {
-  if (examples.empty()) throw InputError("model synthesis needs an example; there is none");
+  if (examples.empty()) throw InputError("model synthesis needs an example, and none was given");
   for (const LabelGrid& e : examples) {
     if (e.labelCount() != adjacency.labelCount) {
       throw InputError("the examples are not those that the adjacency was found in");
@@ -48,7 +48,7 @@ void checkExamples(std::span<const LabelGrid> examples, const Adjacency& adjacen
 
 /// Takes from `base` what has no support (statement 3.6); false where a cell loses all of its
 /// labels. The sets that remain do not depend on the order of work, so pieces of the network come
-/// first, in parallel, and then what these have to tell each other.
+/// first, in parallel, and then what crosses from one to another.
 bool makeArcConsistent(const LabelNetwork& network, LabelSets& base, const Progress& progress) {
   constexpr int kPiece = 8192;  // cells
   const int pieces = (network.cells + kPiece - 1) / kPiece;
@@ -98,7 +98,7 @@ bool makeArcConsistent(const LabelNetwork& network, LabelSets& base, const Progr
   return true;
 }
 
-/// The grids that a labeling of the network stands for.
+/// The grids that a labeling of the network describes.
 std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& example,
                                const std::vector<Label>& labels, const Progress& progress) {
   LabelGrid blank;

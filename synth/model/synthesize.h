@@ -21,23 +21,23 @@
 
 namespace exemplar {
 
-/// Which cells are labelled together.
+/// Which cells are labeled together.
 enum class ModelMethod {
-  Auto,    ///< `Whole`, and `Blocks` where that does not come to an end
+  Auto,    ///< `Whole`, and `Blocks` where that does not finish
   Whole,   ///< the whole grid in one pass, repaired where it contradicts itself (Algorithm 3.1)
   Blocks,  ///< a consistent start, modified block by block (Algorithm 3.4)
 };
 
 /// How probable each of a cell's possible labels is, before the user's own weights.
 enum class LabelChoice {
-  Neighbors,    ///< as frequent as in the example beside the labels that stand around the cell
-  Frequency,    ///< as frequent as in the example, whatever stands around
+  Neighbors,    ///< as frequent as in the example beside the labels around the cell
+  Frequency,    ///< as frequent as in the example, whatever is around
   Uniform,      ///< all alike, as published
   Resemblance,  ///< as frequent as where the example's surroundings look the same (Merrell 2007,
                 ///< equations 2-6)
 };
 
-/// What may stand in the outermost layer at a side of the result (thesis, section 3.3.6).
+/// What may be in the outermost layer at a side of the result (thesis, section 3.3.6).
 struct SideRule {
   enum class Kind {
     Example,  ///< what the example shows at its own outermost layer on that side
@@ -77,7 +77,7 @@ struct ModelOptions {
   ModelMethod method = ModelMethod::Auto;
   LabelChoice choice = LabelChoice::Neighbors;
 
-  /// Auto: so many large regions in a row may come to nothing before blocks take over, >= 0.
+  /// Auto: how many large regions in a row may fail before blocks take over, >= 0.
   int patience = 8;
   Vec3i block{10, 10, 10};  ///< cells; each component >= 2; blocks overlap by half
   int rounds = 1;           ///< over all blocks, 1..100
@@ -105,8 +105,8 @@ struct ModelOptions {
   std::int64_t budget = 200000;
 };
 
-/// Why nothing fits: a smallest set of demands that exclude each other, given what may stand beside
-/// what. Without any one of them the others can be met (or at least are not known to conflict,
+/// Why nothing fits: a smallest set of demands that exclude each other, given which labels may be
+/// neighbors. Without any one of them the others can be met (or at least are not known to conflict,
 /// where `proved` is false).
 struct ModelConflict {
   std::vector<int> pins;    ///< indices into `ModelOptions::pins`
@@ -118,7 +118,7 @@ struct ModelConflict {
 struct ModelStatistics {
   std::int64_t cells = 0;           ///< of the result
   std::int64_t contradictions = 0;  ///< cells left without a label
-  std::int64_t repairs = 0;         ///< regions taken back and labelled anew
+  std::int64_t repairs = 0;         ///< regions taken back and relabeled
   std::int64_t blocks = 0;          ///< modified, Blocks only
   std::int64_t blocksKept = 0;      ///< of these, left as they were
   std::int64_t exact = 0;           ///< calls of the exact solver
@@ -146,10 +146,10 @@ struct ModelResult {
 ///
 /// Each cell keeps the set of labels that are still possible there, always arc consistent
 /// (statements 3.5-3.7); cell after cell, in column order, takes one of them at random. Where a
-/// cell is left without any, a region around it is taken back and labelled anew, by search with
-/// backjumping and then by an exact solver, which finds a labelling or proves that there is none.
+/// cell is left without any, a region around it is taken back and relabeled, by search with
+/// backjumping and then by an exact solver, which finds a labeling or proves that none exists.
 /// So a request is met, or shown to be impossible, or the budget is spent; a result never breaks
-/// the example's rules. Limits on counts and connectedness are met by labelling regions anew where
+/// the example's rules. Limits on counts and connectedness are met by relabeling regions where
 /// they are broken; where that does not succeed the outcome is Unfinished, not a proof.
 ///
 /// `examples` are those that `adjacency` was found in (they share one numbering of labels); looks,

@@ -23,7 +23,7 @@ constexpr int kLarge = 9;
 /// At last everything is taken back, unless that is more labels than the exact solver could hold.
 constexpr int kEverywhere = 1 << 20;
 constexpr std::int64_t kMostLabelsAtOnce = 4'000'000;
-/// How far around it cells that are not labelled yet are looked at too.
+/// How far around it cells that are not labeled yet are looked at too.
 constexpr int kMargin = 3;
 /// Conflicts that the exact solver may meet in a region before a larger one, which is freer, is
 /// tried: regions that are solved at all mostly are within a few thousand.
@@ -79,7 +79,7 @@ int WholePass::mostFrequent(std::span<const LabelWord> labels) const {
   return best;
 }
 
-/// Labels the cells within `reach` of one anew, in the whole catalog too. Of these and of cells
+/// Relabels the cells within `reach` of one, in the whole catalog too. Of these and of cells
 /// around them those after `cell` are not labeled yet: they are set free again. Complete;
 /// Unfinished where that did not succeed; Impossible where the region was everything and it is
 /// proved that nothing fits.

@@ -21,8 +21,8 @@ struct Labeling {
 
 /// Labels the whole network in one pass (thesis, Algorithm 3.1) over arc-consistent sets `base`,
 /// cell after cell. A label that leaves some cell without any is taken back at once. Where a cell
-/// loses all of its labels in this way, the region around it (`Region`) is taken back and labeled
-/// anew, by search and then exactly; the region grows until that succeeds.
+/// loses all of its labels in this way, the region around it (`Region`) is taken back and
+/// relabeled, by search and then exactly; the region grows until that succeeds.
 ///
 /// With `patience`, ends Unfinished after more than that many large regions in a row that could not
 /// be labeled. Impossible where the region has grown to everything and the exact solver proves that

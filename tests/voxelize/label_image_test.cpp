@@ -8,11 +8,15 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "tests/voxelize/error_of.h"
+#include "tests/voxelize/hears_cancellation.h"
 
 namespace exemplar {
 namespace {
 
-/// RGBA pixels drawn from four colours, one of them transparent.
+using testing::HasSubstr;
+
+/// RGBA pixels drawn from four colors, one of them transparent.
 Image8 randomImage(int width, int height, std::uint64_t seed) {
   const std::array<std::uint8_t, 4> colors[] = {
       {0, 0, 0, 255}, {255, 0, 0, 255}, {10, 20, 30, 255}, {0, 0, 0, 0}};
@@ -24,7 +28,7 @@ Image8 randomImage(int width, int height, std::uint64_t seed) {
   return image;
 }
 
-TEST(LabelsFromImage, EachColourIsALabelAndYIsUp) {
+TEST(LabelsFromImage, EachColorIsALabelAndYIsUp) {
   // From the top: red, green / green, transparent.
   const Image8 image{2, 2, 4, {255, 0, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 9, 9, 9, 0}};
   const LabelGrid grid = labelsFromImage(image, "f").grid;
@@ -76,26 +80,41 @@ TEST(LabelsFromImage, LeftOverPixelsLieAtTheTopAndRight) {
   }
 }
 
-TEST(LabelsFromImage, ColoursOfAGridMakeItsPicture) {
+TEST(LabelsFromImage, ColorsOfAGridMakeItsPicture) {
   const Image8 image = randomImage(6, 4, 4);
   EXPECT_EQ(imageFromLabels(labelsFromImage(image, "f").grid).pixels, image.pixels);
 }
 
 TEST(LabelsFromImage, BadInputIsRefused) {
   const Image8 image = randomImage(6, 4, 4);
-  EXPECT_THROW(labelsFromImage(image, "f", {.piece = 5}), InputError);
-  EXPECT_THROW(labelsFromImage(image, "f", {.piece = 0}), InputError);
+  const auto error = [](const Image8& picture, const ImageLabelsOptions& options) {
+    return test::errorOf([&] { return labelsFromImage(picture, "f", options); });
+  };
+  EXPECT_THAT(error(image, {.piece = 5}), HasSubstr("f: the picture of 6 x 4 pixels is smaller"));
+  EXPECT_THAT(error(image, {.piece = 0}), HasSubstr("`piece` 0: must be 1 to 256 pixels"));
+  EXPECT_THAT(error(image, {.piece = 257}), HasSubstr("`piece` 257"));
   ImageLabels labels = labelsFromImage(image, "f");
   labels.grid.cells(0, 0, 0) = 77;
-  EXPECT_THROW(imageFromLabels(labels.grid, labels), InputError);
+  EXPECT_THAT(test::errorOf([&] { return imageFromLabels(labels.grid, labels); }),
+              HasSubstr("label 77"));
   LabelGrid deep = labels.grid;
   deep.cells = Array3D<Label>({2, 2, 2});
-  EXPECT_THROW(imageFromLabels(deep), InputError);
+  EXPECT_THAT(test::errorOf([&] { return imageFromLabels(deep); }), HasSubstr("2 layers"));
   Image8 many{300, 300, 4, {}};
   for (int n = 0; n < 90000; ++n) {
     for (const int c : {n & 255, n >> 8 & 255, n >> 16, 255}) many.pixels.push_back(c);
   }
-  EXPECT_THROW(labelsFromImage(many, "f"), InputError);
+  EXPECT_THAT(error(many, {}), HasSubstr("more than 65536 different pieces"));
+}
+
+TEST(LabelsFromImage, HearsCancellation) {
+  const Image8 image = randomImage(6, 4, 4);
+  test::expectHearsCancellation(
+      [&](const Progress& p) { (void)labelsFromImage(image, "f", {}, p); });
+  const ImageLabels labels = labelsFromImage(image, "f");
+  test::expectHearsCancellation(
+      [&](const Progress& p) { (void)imageFromLabels(labels.grid, labels, p); });
+  test::expectHearsCancellation([&](const Progress& p) { (void)imageFromLabels(labels.grid, p); });
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST(LabelMesh, WithoutInnerFacesOnlyTheOutsideIsLeft) {
   EXPECT_NEAR(area, 150, 1e-9);
 }
 
-TEST(LabelMesh, MaterialsHaveTheLabelsNamesAndColours) {
+TEST(LabelMesh, MaterialsHaveTheLabelsNamesAndColors) {
   const LabelGrid grid = randomGrid({4, 4, 4}, 3, 1);
   const TriangleMesh mesh = labelMesh(grid);
   ASSERT_EQ(mesh.materials.size(), 2u);

@@ -10,7 +10,7 @@
 
 namespace exemplar {
 
-/// A grid of random labels from 0 (empty) to `labels` - 1, in colours that 8 bits hold.
+/// A grid of random labels from 0 (empty) to `labels` - 1, in colors that 8 bits hold.
 inline LabelGrid randomGrid(const Vec3i& size, int labels, std::uint64_t seed) {
   const Random random(seed, 0x1ab3);
   LabelGrid grid;
@@ -44,7 +44,7 @@ inline std::string voxFile(const std::string& chunks) {
   return "VOX " + little(150) + "MAIN" + little(0) +
          little(static_cast<std::int64_t>(chunks.size())) + chunks;
 }
-/// A model of `size` whose voxels are four bytes each: x, y, z, colour.
+/// A model of `size` whose voxels are four bytes each: x, y, z, color.
 inline std::string voxModel(const Vec3i& size, const std::string& voxels) {
   return voxChunk("SIZE", little(size.x) + little(size.y) + little(size.z)) +
          voxChunk("XYZI", little(static_cast<std::int64_t>(voxels.size() / 4)) + voxels);

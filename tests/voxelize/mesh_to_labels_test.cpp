@@ -3,6 +3,7 @@
 
 #include "voxelize/mesh_to_labels.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -14,10 +15,14 @@
 #include "core/file.h"
 #include "mesh/image.h"
 #include "mesh/primitives.h"
+#include "tests/voxelize/error_of.h"
+#include "tests/voxelize/hears_cancellation.h"
 #include "voxelize/cell_cut.h"
 
 namespace exemplar {
 namespace {
+
+using testing::HasSubstr;
 
 TriangleMesh painted(TriangleMesh mesh, const std::string& name, float red) {
   setMaterial(mesh, {.name = name, .baseColor = {red, 0, 0, 1}});
@@ -99,7 +104,7 @@ TEST(MeshToLabels, ASphereHasItsVolume) {
   const LabelGrid grid =
       meshToLabels(makeSphere({0, 0, 0}, 1, 16), {.resolution = 40, .fill = VoxelFill::Solid});
   const double cell = grid.cellSize.x;
-  // Cells along the surface are in or out by their centres: the error is far below a layer.
+  // Cells along the surface are in or out by their centers: the error is far below a layer.
   EXPECT_NEAR(filled(grid) * cell * cell * cell, 4 * std::numbers::pi / 3, 0.03);
 }
 
@@ -116,8 +121,8 @@ TEST(MeshToLabels, EachMaterialIsALabel) {
   }
 }
 
-TEST(MeshToLabels, ATexturedMaterialsLabelHasItsMeanColour) {
-  const auto path = std::filesystem::temp_directory_path() / "exemplar_mean_colour_test.png";
+TEST(MeshToLabels, ATexturedMaterialsLabelHasItsMeanColor) {
+  const auto path = std::filesystem::temp_directory_path() / "exemplar_mean_color_test.png";
   writePng(path, Image8{2, 1, 3, {255, 0, 0, 0, 0, 0}});
   TriangleMesh mesh = painted(makeBox({{0, 0, 0}, {1, 1, 1}}), "wall", 1.0f);
   mesh.materials[0].baseColor = {1, 1, 1, 1};
@@ -151,11 +156,20 @@ TEST(MeshToLabels, OneThreadEqualsEight) {
 
 TEST(MeshToLabels, BadInputIsRefused) {
   const TriangleMesh box = makeBox({{0, 0, 0}, {1, 1, 1}});
-  EXPECT_THROW(meshToLabels(TriangleMesh{}), InputError);
-  EXPECT_THROW(meshToLabels(box, {.cellSize = {1, 0, 1}}), InputError);
-  EXPECT_THROW(meshToLabels(box, {.cellSize = {1e-6, 1e-6, 1e-6}}), InputError);
-  EXPECT_THROW(meshToLabels(box, {.resolution = 0}), InputError);
-  EXPECT_THROW(meshToLabels(box, {.air = -1}), InputError);
+  const auto error = [&](const MeshToLabelsOptions& options) {
+    return test::errorOf([&] { return meshToLabels(box, options); });
+  };
+  EXPECT_THAT(test::errorOf([] { return meshToLabels(TriangleMesh{}); }), HasSubstr("the mesh"));
+  EXPECT_THAT(error({.cellSize = {1, 0, 1}}), HasSubstr("`cell` 0.000000: must be a positive"));
+  EXPECT_THAT(error({.cellSize = {1e-6, 1e-6, 1e-6}}), HasSubstr("longer than 32,767 cells"));
+  EXPECT_THAT(error({.resolution = 0}), HasSubstr("`resolution` 0: must be 1 to 4096"));
+  EXPECT_THAT(error({.air = -1}), HasSubstr("`air` -1: must be 0 to 1024"));
+}
+
+TEST(MeshToLabels, HearsCancellation) {
+  const TriangleMesh box = makeBox({{0, 0, 0}, {1, 1, 1}});
+  test::expectHearsCancellation(
+      [&](const Progress& p) { (void)meshToLabels(box, {.resolution = 10}, p); });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "voxelize/model_pieces.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -17,9 +18,13 @@
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
 #include "mesh/primitives.h"
+#include "tests/voxelize/error_of.h"
+#include "tests/voxelize/hears_cancellation.h"
 
 namespace exemplar {
 namespace {
+
+using testing::HasSubstr;
 
 /// The solid of a set of unit cells as one closed mesh: a tower block, a wall, whatever.
 TriangleMesh solidOf(const Vec3i& size, const std::function<bool(Vec3i)>& filled) {
@@ -165,7 +170,7 @@ TEST(ModelPieces, MaterialsTellPiecesApart) {
   EXPECT_FLOAT_EQ(pieces.grid.labels[2].color[0], 0.5f);
 }
 
-TEST(ModelPieces, VertexColoursAndTextureCoordinatesTellPiecesApart) {
+TEST(ModelPieces, VertexColorsAndTextureCoordinatesTellPiecesApart) {
   TriangleMesh mesh = makeBox({{0, 0, 0}, {1, 1, 1}});
   append(mesh, makeBox({{2, 0, 0}, {3, 1, 1}}));
   EXPECT_EQ(cutIntoPieces(mesh).grid.labelCount(), 2);
@@ -225,7 +230,7 @@ TEST(AssemblePieces, GivesTheExampleAgain) {
 
 TEST(AssemblePieces, PiecesOfOtherTrianglesFitWithoutCracks) {
   // A long wall, cut along its diagonals differently in every cell: each piece is that of the first
-  // cell with its shape, whose edges are divided elsewhere than its neighbour's.
+  // cell with its shape, whose edges are divided elsewhere than its neighbor's.
   const TriangleMesh wall = describedOtherwise(
       solidOf({9, 4, 4}, [](Vec3i c) { return c.x > 0 && c.x < 8 && c.y % 3 && c.z < 3; }), 1e-6,
       3);
@@ -315,16 +320,31 @@ TEST(ModelPieces, OneThreadEqualsEight) {
 
 TEST(ModelPieces, BadInputIsRefused) {
   const TriangleMesh mesh = roofs();
-  EXPECT_THROW(cutIntoPieces(TriangleMesh{}), InputError);
-  EXPECT_THROW(cutIntoPieces(mesh, {.cellSize = {0, 1, 1}}), InputError);
-  EXPECT_THROW(cutIntoPieces(mesh, {.cellSize = {1e-9, 1, 1}}), InputError);
-  EXPECT_THROW(cutIntoPieces(mesh, {.tolerance = 0}), InputError);
+  const auto error = [&](const ModelPiecesOptions& options) {
+    return test::errorOf([&] { return cutIntoPieces(mesh, options); });
+  };
+  EXPECT_THAT(test::errorOf([] { return cutIntoPieces(TriangleMesh{}); }), HasSubstr("the mesh"));
+  EXPECT_THAT(error({.cellSize = {0, 1, 1}}), HasSubstr("`cell` 0.000000: must be a positive"));
+  EXPECT_THAT(error({.cellSize = {1e-9, 1, 1}}), HasSubstr("longer than 32,767 cells"));
+  EXPECT_THAT(error({.air = 1025}), HasSubstr("`air` 1025: must be 0 to 1024"));
+  EXPECT_THAT(error({.tolerance = 0}), HasSubstr("`tolerance`: must be 1e-7 to 0.1 cells"));
   const ModelPieces pieces = cutIntoPieces(mesh);
   LabelGrid grid = pieces.grid;
   for (Label& label : grid.cells.values()) label = 0;
-  EXPECT_THROW(assemblePieces(grid, pieces), InputError);
+  const auto assemble = [&] { return assemblePieces(grid, pieces); };
+  EXPECT_THAT(test::errorOf(assemble), HasSubstr("has no geometry"));
   grid.cells(0, 0, 0) = 999;
-  EXPECT_THROW(assemblePieces(grid, pieces), InputError);
+  EXPECT_THAT(test::errorOf(assemble), HasSubstr("label 999"));
+  EXPECT_THAT(test::errorOf([&] { return writePieceInstances("never.glb", grid, pieces); }),
+              HasSubstr("label 999"));
+}
+
+TEST(ModelPieces, EveryStepHearsCancellation) {
+  const TriangleMesh mesh = roofs();
+  test::expectHearsCancellation([&](const Progress& p) { (void)cutIntoPieces(mesh, {}, p); });
+  const ModelPieces pieces = cutIntoPieces(mesh);
+  test::expectHearsCancellation(
+      [&](const Progress& p) { (void)assemblePieces(pieces.grid, pieces, nullptr, p); });
 }
 
 }  // namespace

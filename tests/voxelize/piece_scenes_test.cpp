@@ -29,7 +29,7 @@ TEST_P(PieceSceneTest, HasTheLabelsOfItsCounterpartAndIsPutTogetherAgain) {
                                 (std::string(GetParam().name) + ".toml"));
   const ModelPieces pieces = cutIntoPieces(scene.mesh, {.cellSize = *scene.cell, .box = scene.box});
   EXPECT_GE(pieces.grid.labelCount(), GetParam().labels);
-  // Most of what is there is there again: synthesis has something to choose from.
+  // Most pieces occur several times: synthesis has something to choose from.
   std::vector<int> cells(pieces.grid.labels.size(), 0);
   for (const Label label : pieces.grid.cells.values()) ++cells[label];
   int filled = 0, again = 0;

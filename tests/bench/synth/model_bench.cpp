@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
 // Model synthesis: model/<method>/<example>/<x>x<y>x<z>/<threads>, each beside plain one-pass
-// propagation by AC-4 (baseline/ac4/...), with the share of seeds that come to an end.
+// propagation by AC-4 (baseline/ac4/...), with the share of seeds that complete.
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -31,7 +31,7 @@ constexpr Example kExamples[] = {{"canyon", test::canyon},
                                  {"parliament", test::parliament},
                                  {"escheresque", test::escheresque}};
 
-/// Has the largest resident size counted anew, where the system can.
+/// Resets the largest resident size, where the system can.
 void forgetPeak() {
   if (std::FILE* f = std::fopen("/proc/self/clear_refs", "w")) {
     std::fputs("5", f);

@@ -6,13 +6,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/random.h"
 #include "synth/model/examples.h"
+#include "voxelize/error_of.h"
+#include "voxelize/hears_cancellation.h"
 
 namespace exemplar {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 TEST(FindAdjacency, CountsOrderedPairsAlongEachAxis) {
   const LabelGrid g = test::drawn({{"ab", "aa"}, {"bb", "ba"}});  // a is 1, b is 2
@@ -63,18 +66,52 @@ TEST(FindAdjacency, CountsFurtherOffsetsFramesAndSeveralExamples) {
 }
 
 TEST(FindAdjacency, TurnsDownWhatIsNoExample) {
-  EXPECT_THROW((void)findAdjacency(std::span<const LabelGrid>{}), InputError);
-  EXPECT_THROW((void)findAdjacency(LabelGrid{}), InputError);
   LabelGrid g = test::drawnFlat({"ab"});
   AdjacencyOptions o;
-  o.offsets = {{0, 0, 0, 0}};
-  EXPECT_THROW((void)findAdjacency(g, o), InputError);
-  o.offsets = {{-1, 0, 0, 0}};
-  EXPECT_THROW((void)findAdjacency(g, o), InputError);
-  o.offsets = {{1, 1, 0, 1}};
-  EXPECT_THROW((void)findAdjacency(g, o), InputError);
+  const auto error = [&](std::span<const LabelGrid> examples) {
+    return test::errorOf([&] { return findAdjacency(examples, o); });
+  };
+  const auto errorAt = [&](const CellOffset& offset) {
+    o.offsets = {offset};
+    return error(std::span(&g, 1));
+  };
+  EXPECT_THAT(error({}), HasSubstr("needs an example"));
+  EXPECT_THAT(error(std::vector<LabelGrid>(1)), HasSubstr("has no cells"));
+  EXPECT_THAT(errorAt({0, 0, 0, 0}), HasSubstr("`offset` (0, 0, 0): a cell is no neighbor"));
+  EXPECT_THAT(errorAt({-1, 0, 0, 0}), HasSubstr("`offset` (-1, 0, 0): it, or its opposite"));
+  EXPECT_THAT(errorAt({1, 1, 0, 1}), HasSubstr("`offset` (1, 1, 0, 1): it steps through time"));
+  o.offsets.clear();
+  LabelGrid more = g;
+  more.labels.resize(7);
+  EXPECT_THAT(error(std::vector<LabelGrid>{g, more}), HasSubstr("must share one numbering"));
+  o.frames = true;
+  more = test::drawnFlat({"aba"});
+  more.labels.resize(g.labels.size());
+  EXPECT_THAT(error(std::vector<LabelGrid>{g, more}), HasSubstr("must have the same size"));
   g.cells(0, 0, 0) = 9;
-  EXPECT_THROW((void)findAdjacency(g), InputError);
+  EXPECT_THAT(error(std::span(&g, 1)), HasSubstr("a cell has label 9"));
+}
+
+TEST(FindAdjacency, CountsManyLabelsAsItCountsFew) {
+  // Above 1,024 labels pairs are sorted; below they are counted in a table.
+  LabelGrid few;
+  few.cells = Array3D<Label>({17, 13, 5});
+  few.labels.resize(40);
+  const Random random(4);
+  for (std::size_t i = 0; i < few.cells.count(); ++i) {
+    few.cells.data()[i] = static_cast<Label>(random.below(40, i));
+  }
+  LabelGrid many = few;
+  many.labels.resize(2000);
+  const Adjacency a = findAdjacency(few), b = findAdjacency(many);
+  ASSERT_EQ(a.rules.size(), b.rules.size());
+  for (std::size_t r = 0; r < a.rules.size(); ++r) EXPECT_EQ(a.rules[r].pairs, b.rules[r].pairs);
+  EXPECT_EQ(a.sides, b.sides);
+}
+
+TEST(FindAdjacency, HearsCancellation) {
+  const LabelGrid g = test::figure36();
+  test::expectHearsCancellation([&](const Progress& p) { (void)findAdjacency(g, {}, p); });
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST(Catalog, UndoBringsBackEverySet) {
   EXPECT_GT(contradictions, 0);
 }
 
-/// Every labelling of a small grid, one after the other.
+/// Every labeling of a small grid, one after the other.
 bool satisfiable(const Adjacency& a, const Vec3i& size) {
   Array3D<Label> cells(size, 0);
   for (;;) {
@@ -141,7 +141,7 @@ TEST(SearchLabels, DecidesAsEnumerationDoes) {
 }
 
 TEST(SearchLabels, GivesUpWithTheSetsItBeganWith) {
-  // Two labels that never stand side by side beside themselves, on an odd ring: impossible, but
+  // Two labels that are never their own neighbors, on an odd ring: impossible, but
   // propagation does not see it.
   Adjacency a = randomAdjacency(3, 0, 0);
   a.rules[0].pairs.clear();

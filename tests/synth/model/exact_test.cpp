@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "synth/model/networks.h"
 
 namespace exemplar {
@@ -47,6 +49,19 @@ TEST(ExactSolver, HasAsManySolutionsAsEnumerationFinds) {
     }
     EXPECT_EQ(found, countSolutions(a, size)) << trial;
   }
+}
+
+TEST(ExactSolver, HearsCancellation) {
+  const Adjacency a = randomAdjacency(3, 0.6, 1);
+  const ModelOptions o = freeOptions({5, 5, 1});
+  const ModelProblem problem(a, o);
+  const LabelSets domains = problem.domains(problem.demands());
+  const std::atomic<bool> cancel = true;
+  const Progress cancelled({}, &cancel);
+  EXPECT_THROW(ExactSolver(problem.network(), domains, cancelled), Cancelled);
+  ExactSolver exact(problem.network(), domains);
+  EXPECT_THROW((void)exact.solve({}, 1000, cancelled), Cancelled);
+  EXPECT_NE(exact.solve({}, 1000), Outcome::Unfinished) << "it can be used again";
 }
 
 TEST(ExactSolver, NamesTheDemandsThatAProofUses) {

@@ -18,7 +18,7 @@ LabelGrid drawnFlat(const std::vector<std::string>& rows);
 
 /// The thesis' figure 3.5 rebuilt from its description (section 3.3.4): a '2' implies a '6' two
 /// cells on, over one of two ways, with a '3' or a '7' beside the '2' that both look possible until
-/// they are not; in the infallible twin (section 3.3.8) a '9' stands for an enclosed '0', which
+/// they are not; in the infallible twin (section 3.3.8) a '9' replaces an enclosed '0', which
 /// statement 3.11 and regions of 2 x 2 prove. The drawing itself is not copied: the letters, the
 /// 'i', and which way is up are ours. So: from every '2' a path leads to a '6' two
 /// cells above, over one of two ways that look alike in part. With `infallible`, the empty

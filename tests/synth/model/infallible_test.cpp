@@ -7,6 +7,7 @@
 
 #include "synth/model/examples.h"
 #include "synth/model/networks.h"
+#include "voxelize/hears_cancellation.h"
 
 namespace exemplar {
 namespace {
@@ -62,6 +63,11 @@ TEST(Infallible, LargerRegionsProveMoreAndNeverWrongly) {
     for (int seed = 0; seed < 5; ++seed) EXPECT_TRUE(test::plainPass(problem, seed)) << trial;
   }
   EXPECT_GT(more, 0);
+}
+
+TEST(Infallible, HearsCancellation) {
+  const Adjacency a = findAdjacency(test::figure36());
+  test::expectHearsCancellation([&](const Progress& p) { (void)summarizeRules(a, 2000, p); });
 }
 
 TEST(Infallible, SpaceIsProvedToo) {

@@ -134,7 +134,7 @@ TEST(Metropolis, DrawsLabelsToWhereTheirWeightIs) {
 }
 
 TEST(Resemblance, CountsThePlacesThatDifferLeast) {
-  // Beside 'a' on its left, 'b' stands twice and 'c' once; nothing else is known.
+  // Beside 'a' on its left, 'b' occurs twice and 'c' once; nothing else is known.
   const LabelGrid example = test::drawnFlat({"abxabxacx"});
   ModelOptions o;
   o.size = {3, 1, 1};
@@ -147,7 +147,7 @@ TEST(Resemblance, CountsThePlacesThatDifferLeast) {
   const auto placed = [](int cell) { return cell == 0 ? 1 : -1; };
   const std::vector<double> l = resemblance.likeness(1, all[0], placed);
   EXPECT_EQ(l, (std::vector<double>{0, 0, 2, 0, 1}));
-  // Where nothing resembles what stands there, the least different count.
+  // Where nothing resembles what is there, the least different count.
   const std::vector<double> rest = resemblance.likeness(1, all[0], [](int cell) {
     return cell == 0 ? 4 : cell == 2 ? 4 : -1;
   });

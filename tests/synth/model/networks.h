@@ -14,7 +14,7 @@
 
 namespace exemplar::test {
 
-/// Rules in which each ordered pair of labels may stand along each of x and y (and z) with a
+/// Rules in which each ordered pair of labels is allowed along each of x and y (and z) with a
 /// chance.
 inline Adjacency randomAdjacency(int labels, double chance, std::uint64_t seed, int axes = 2) {
   const Random random(seed, 77);
@@ -96,7 +96,7 @@ inline bool bruteForceConsistency(const LabelNetwork& network,
   return true;
 }
 
-/// Algorithm 3.1 as published: nothing is taken back. True where it comes to an end.
+/// Algorithm 3.1 as published: nothing is taken back. True where it finishes.
 inline bool plainPass(const ModelProblem& problem, std::uint64_t seed) {
   const LabelNetwork& network = problem.network();
   const LabelSets start = problem.domains(problem.demands());

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "synth/model/examples.h"
 #include "synth/model/networks.h"
+#include "voxelize/hears_cancellation.h"
 #include "voxelize/violations.h"
 
 namespace exemplar {
@@ -19,6 +20,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 struct NamedExample {
   const char* name;
@@ -40,12 +42,13 @@ TEST_P(EachExample, GivesOnlyPairsOfTheExample) {
         o.seed = seed;
         o.method = method;
         o.choice = choice;
-        o.block = {6, 7, 5};
+        if (method == ModelMethod::Blocks) o.block = {6, 7, 5};
         const ModelResult r = synthesizeModel(std::span(&example, 1), adjacency, o);
         ASSERT_EQ(r.outcome, Outcome::Complete) << seed << " " << r.conflict.text;
         const AdjacencyViolations v = findViolations(r.grid(), example);
         EXPECT_EQ(v.count, 0) << seed;
-        EXPECT_GT(v.pairs, 400);
+        const Vec3i n = o.size;
+        EXPECT_EQ(v.pairs, 3 * volume(n) - n.y * n.z - n.x * n.z - n.x * n.y);
         // The outermost layers show what the example's do.
         for (std::size_t i = 0; i < r.grid().cells.count(); ++i) {
           const Vec3i p = r.grid().cells.ijk(i);
@@ -63,13 +66,20 @@ TEST_P(EachExample, GivesOnlyPairsOfTheExample) {
 TEST_P(EachExample, IsTheSameAtAnyNumberOfThreads) {
   const LabelGrid example = GetParam().make();
   const int height = example.size().z == 1 ? 1 : 10;
-  for (const ModelMethod method : {ModelMethod::Whole, ModelMethod::Blocks}) {
+  struct Way {
+    ModelMethod method;
+    LabelChoice choice;
+  };
+  // By resemblance a cell looks at all cells around it, those across edges and corners, too.
+  for (const Way way : {Way{ModelMethod::Whole, LabelChoice::Uniform},
+                        Way{ModelMethod::Blocks, LabelChoice::Uniform},
+                        Way{ModelMethod::Blocks, LabelChoice::Resemblance}}) {
     ModelOptions o;
     o.size = {25, 22, height};
     o.seed = 5;
-    o.method = method;
-    o.choice = LabelChoice::Uniform;
-    o.block = {8, 8, 10};
+    o.method = way.method;
+    o.choice = way.choice;
+    if (way.method == ModelMethod::Blocks) o.block = {6, 6, 6};
     ModelResult one, eight;
     tbb::task_arena(1).execute([&] { one = synthesizeModel(example, o); });
     tbb::task_arena(8).execute([&] { eight = synthesizeModel(example, o); });
@@ -180,7 +190,7 @@ TEST(SynthesizeModel, ProvesWhatFigure35SaysPropagationMisses) {
 }
 
 TEST(SynthesizeModel, TurnsToBlocksWhereTheWholeComesToNothing) {
-  // Without patience the first large region that is not labelled ends the pass over the whole.
+  // Without patience the first large region that is not labeled ends the pass over the whole.
   const LabelGrid example = test::escheresque();
   int inBlocks = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
@@ -198,7 +208,7 @@ TEST(SynthesizeModel, TurnsToBlocksWhereTheWholeComesToNothing) {
     EXPECT_GT(one.statistics.blocks, 0);
     tbb::task_arena(8).execute([&] { eight = synthesizeModel(example, o); });
     EXPECT_EQ(one.grid().cells, eight.grid().cells);
-    // With patience the same seed is labelled in one pass, and so not the same.
+    // With patience the same seed is labeled in one pass, and so not the same.
     o.patience = 1000;
     const ModelResult whole = synthesizeModel(example, o);
     ASSERT_EQ(whole.outcome, Outcome::Complete);
@@ -287,7 +297,7 @@ TEST(SynthesizeModel, ProvesThatThreeEndsDoNotPair) {
   EXPECT_EQ(findViolations(four.grid(), example).count, 0);
 }
 
-TEST(SynthesizeModel, HonoursPinsMasksAndWeights) {
+TEST(SynthesizeModel, HonorsPinsMasksAndWeights) {
   const LabelGrid example = test::figure36();
   ModelOptions o;
   o.size = {20, 20, 1};
@@ -496,7 +506,7 @@ TEST(SynthesizeModel, MakesModelsThatChangeOverTime) {
 }
 
 TEST(SynthesizeModel, KeepsRulesAtFurtherOffsets) {
-  // Three colours on a hexagonal grid, no two alike side by side: with the axis (1, -1) there are
+  // Three colors on a hexagonal grid, no two alike side by side: with the axis (1, -1) there are
   // just six such patterns, without it there are many.
   LabelGrid example;
   example.cells = Array3D<Label>({9, 9, 1});
@@ -543,7 +553,7 @@ TEST(SynthesizeModel, OriginsHaveTheLabelAndFollowTheExample) {
   EXPECT_GT(together, pairs / 2);
 }
 
-TEST(SynthesizeModel, TurnsDownWhatCannotBeHonoured) {
+TEST(SynthesizeModel, TurnsDownWhatCannotBeHonored) {
   const LabelGrid example = test::figure36();
   const auto message = [&](const auto& change) -> std::string {
     ModelOptions o;
@@ -556,34 +566,63 @@ TEST(SynthesizeModel, TurnsDownWhatCannotBeHonoured) {
     }
     return "nothing";
   };
-  EXPECT_THAT(message([](ModelOptions& o) { o.size = {8, 0, 1}; }), HasSubstr("not positive"));
-  EXPECT_THAT(message([](ModelOptions& o) { o.size.z = 3; }), HasSubstr("one cell thick along z"));
-  EXPECT_THAT(message([](ModelOptions& o) { o.frames = 2; }), HasSubstr("several frames"));
-  EXPECT_THAT(message([](ModelOptions& o) { o.pins = {{{8, 0, 0}, {0}}}; }), HasSubstr("pin 1"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.size = {8, 0, 1};
+              }),
+              StartsWith("`size` 8 x 0 x 1: each side must be 1 or more"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.size.z = 3; }),
+              StartsWith("`size` 8 x 8 x 3: the example is one cell thick along z"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.frames = 2; }),
+              StartsWith("`frames` 2: the example has no frames"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.pins = {{{8, 0, 0}, {0}}};
+              }),
+              StartsWith("`pin` number 1: cell (8, 0, 0) is outside"));
   EXPECT_THAT(message([](ModelOptions& o) {
                 o.pins = {{{1, 0, 0}, {999}}};
               }),
-              HasSubstr("label 999"));
-  EXPECT_THAT(message([](ModelOptions& o) { o.pins = {{{1, 0, 0}, {}}}; }), HasSubstr("no label"));
-  EXPECT_THAT(message([](ModelOptions& o) { o.weights = {1, 2}; }), HasSubstr("2 weights"));
+              StartsWith("`pin` number 1: names label 999"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.pins = {{{1, 0, 0}, {}}};
+              }),
+              StartsWith("`pin` number 1: allows no label"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.weights = {1, 2};
+              }),
+              StartsWith("`weight`: there are 2 weights"));
   EXPECT_THAT(message([](ModelOptions& o) {
                 o.weightMaps = {{{0}, Array3D<float>({3, 3, 1}, 1.f)}};
               }),
-              HasSubstr("3 x 3 x 1"));
+              StartsWith("`weight-map`: it is 3 x 3 x 1 cells"));
   EXPECT_THAT(message([](ModelOptions& o) {
                 o.mask = Array3D<std::uint8_t>({2, 2, 1}, 1);
               }),
-              HasSubstr("mask"));
-  EXPECT_THAT(message([](ModelOptions& o) { o.block = {1, 4, 4}; }), HasSubstr("block"));
-  EXPECT_THAT(message([](ModelOptions& o) { o.symmetry.turns = 3; }), HasSubstr("1, 2 or 4"));
+              StartsWith("`mask`: it is 2 x 2 x 1 cells"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.rounds = 0; }), StartsWith("`rounds` 0: must be 1"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.budget = 0; }), StartsWith("`budget` 0: must be 1"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.patience = -1; }), StartsWith("`patience` -1: must"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.counts = {{{0}, 5, 3}};
+              }),
+              StartsWith("`count`: at least 5 and at most 3 exclude each other"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.sides[0] = {SideRule::Kind::Labels, {}};
+              }),
+              StartsWith("`side`: allows no label"));
+  EXPECT_THAT(message([](ModelOptions& o) {
+                o.block = {1, 4, 4};
+              }),
+              StartsWith("`block` 1 x 4 x 4: each side must be 2"));
+  EXPECT_THAT(message([](ModelOptions& o) { o.symmetry.turns = 3; }),
+              StartsWith("`turns` 3: must be 1, 2 or 4"));
   EXPECT_THAT(message([](ModelOptions& o) {
                 o.symmetry.copies = {3, 1, 1};
               }),
-              HasSubstr("do not divide"));
+              StartsWith("`copies` 3: they do not divide"));
   EXPECT_THAT(message([](ModelOptions& o) {
                 o.size = {100000, 100000, 1};
               }),
-              HasSubstr("make it smaller"));
+              HasSubstr("use a smaller `size`"));
 }
 
 TEST(SynthesizeModel, SaysWhyAnExampleThatNeverRepeatsGivesNothing) {
@@ -604,11 +643,27 @@ TEST(SynthesizeModel, SaysWhyAnExampleThatNeverRepeatsGivesNothing) {
   EXPECT_EQ(synthesizeModel(one, o).outcome, Outcome::Complete);
 }
 
-TEST(SynthesizeModel, EndsCancelledWhenAsked) {
-  const std::atomic<bool> stop = true;
+TEST(SynthesizeModel, HearsCancellationWhereverItIs) {
+  const LabelGrid example = test::figure36();
   ModelOptions o;
-  o.size = {30, 30, 8};
-  EXPECT_THROW((void)synthesizeModel(test::city(), o, Progress({}, &stop)), Cancelled);
+  o.size = {40, 40, 1};
+  o.choice = LabelChoice::Uniform;
+  std::vector<Label> ends;
+  for (const char* name : {"e", "n", "w", "s"}) {
+    ends.push_back(static_cast<Label>(labelNamed(example, name)));
+  }
+  o.counts = {{ends, 0, 30}};
+  for (const ModelMethod method : {ModelMethod::Whole, ModelMethod::Blocks}) {
+    o.method = method;
+    test::expectHearsCancellation(
+        [&](const Progress& progress) { (void)synthesizeModel(example, o, progress); });
+  }
+  // While a conflict is explained.
+  o.counts.clear();
+  o.pins = {{{5, 5, 0}, {ends[0]}}, {{6, 5, 0}, {ends[0]}}};
+  test::expectHearsCancellation([&](const Progress& progress) {
+    EXPECT_EQ(synthesizeModel(example, o, progress).outcome, Outcome::Impossible);
+  });
 }
 
 }  // namespace
