@@ -21,7 +21,7 @@ struct GltfAccessor {
   std::string place;  ///< what errors call it: "accessors[3]"
   std::uint64_t count = 0;
   int componentType = 0;  ///< GL_BYTE (5120) .. GL_FLOAT (5126)
-  int components = 0;     ///< 1 for SCALAR .. 4 for VEC4
+  int components = 0;     ///< 1 for SCALAR .. 4 for VEC4, 16 for MAT4
   bool normalized = false;
 
   /// The first vector's bytes, `stride` from one vector to the next; null where all are zero.
