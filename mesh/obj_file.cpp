@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "core/text_scanner.h"
 #include "mesh/color.h"
 #include "mesh/mesh_formats.h"
@@ -54,8 +55,8 @@ class ObjReader {
     if (hasUvs_) resolveUvs();
     resolveMaterials();
     if (shortFaces_ > 0) {
-      source_.warn(std::to_string(shortFaces_) +
-                   " faces with fewer than three corners are left out");
+      source_.warn("leaving out " + counted(shortFaces_, "face") +
+                   " with fewer than three corners");
     }
     return std::move(mesh_);
   }

@@ -538,8 +538,8 @@ class PlyReader {
   void finish(const Body& body) {
     for (const Face& face : pendingFaces_) addFace(face, body, nullptr);
     if (shortFaces_ > 0) {
-      source_.warn(std::to_string(shortFaces_) +
-                   " faces with fewer than three corners are left out");
+      source_.warn("leaving out " + counted(shortFaces_, "face") +
+                   " with fewer than three corners");
     }
     for (const auto& color : vertexColors_.bytes(body)) mesh_.colors.push_back(fromRgba8(color));
     const std::size_t triangles = mesh_.triangles.size();

@@ -68,8 +68,11 @@ struct Source {
 /// Words of a text, wherever its lines end.
 class Words {
  public:
-  explicit Words(const Source& source)
-      : in_(source.bytes, source.name, {.comments = true}), progress_(source.progress) {
+  /// With `gluedComments`, a comment may follow a word without a blank ("500#wide").
+  Words(const Source& source, bool gluedComments)
+      : in_(source.bytes, source.name, {.comments = true}),
+        progress_(source.progress),
+        gluedComments_(gluedComments) {
     in_.nextLine();
   }
 
@@ -78,7 +81,7 @@ class Words {
     if (count_++ % 65536 == 0) progress_.report("reading", in_.fraction());
     const std::string_view word = in_.wordAhead();
     const std::size_t comment = word.find('#');
-    if (comment == std::string_view::npos) return word;
+    if (!gluedComments_ || comment == std::string_view::npos) return word;
     in_.rest();
     return word.substr(0, comment);
   }
@@ -105,6 +108,7 @@ class Words {
  private:
   TextScanner in_;
   const Progress& progress_;
+  bool gluedComments_;
   std::uint64_t count_ = 0;
 };
 
@@ -183,7 +187,7 @@ void finish(HeightMap& map, const HeightMapFileOptions& options, int largest) {
 
 HeightMap readPgm(const Source& source) {
   const std::string& name = source.name;
-  Words words(source);
+  Words words(source, true);
   const std::string_view magic = words.next();
   if (magic != "P2" && magic != "P5") words.fail("is no .pgm file: it must begin with P2 or P5");
   // Binary samples follow the header's bytes as they are, whatever a text would be decoded to.
@@ -254,7 +258,7 @@ HeightMap readPng(const Source& source) {
   const auto holes = static_cast<std::size_t>(std::count(known.begin(), known.end(), 0));
   if (holes == known.size()) fail(source.name, "holds no heights: every pixel is transparent");
   if (holes > 0) {
-    source.warn(std::to_string(holes) + " transparent pixels are filled from their neighbors");
+    source.warn("filling " + counted(holes, "transparent pixel") + " from their neighbors");
     fillHoles(map, known);
   }
   finish(map, source.options, largest);
@@ -264,7 +268,7 @@ HeightMap readPng(const Source& source) {
 /// Reads an ESRI grid: keys and numbers, then the heights.
 class AscReader {
  public:
-  explicit AscReader(const Source& source) : source_(source), words_(source) {}
+  explicit AscReader(const Source& source) : source_(source), words_(source, false) {}
 
   HeightMap read() {
     std::string_view word = readKeys();
@@ -375,9 +379,8 @@ class AscReader {
     if (holes == known_.size()) fail(source_.name, "holds no heights: every cell is NODATA");
     if (holes == 0) return;
     if (assumed_)
-      source_.warn(std::to_string(holes) +
-                   " cells without data, which no NODATA_value announces, are filled from their "
-                   "neighbors");
+      source_.warn("filling " + counted(holes, "cell") +
+                   " without data, which no NODATA_value announces, from their neighbors");
     fillHoles(map_, known_);
   }
 

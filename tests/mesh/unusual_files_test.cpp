@@ -160,7 +160,7 @@ TEST(UnusualObj, FacesMayComeBeforeTheirVertices) {
 TEST(UnusualObj, FacesWithFewerThanThreeCornersAreLeftOut) {
   const Read r = read(".obj", boxVertices("v ") + objFaces() + "f 1 2\nf 3\nf\n");
   expectBox(r.mesh, "with an edge as a face");
-  EXPECT_THAT(r.warnings, ElementsAre("f.obj: 3 faces with fewer than three corners are left out"));
+  EXPECT_THAT(r.warnings, ElementsAre("f.obj: leaving out 3 faces with fewer than three corners"));
 }
 
 TEST(UnusualObj, MissingTextureCoordinatesAndNormalsDoNotMatter) {
@@ -303,7 +303,7 @@ TEST(UnusualPly, FacesMayComeBeforeVerticesAndShortOnesAreLeftOut) {
   expectBox(r.mesh, "faces first");
   ASSERT_EQ(r.mesh.materials.size(), 1u) << "the left-out face's color is none";
   EXPECT_EQ(toRgba8(r.mesh.materials[0].baseColor), kRed);
-  EXPECT_THAT(r.warnings, ElementsAre("f.ply: 1 faces with fewer than three corners are left out"));
+  EXPECT_THAT(r.warnings, ElementsAre("f.ply: leaving out 1 face with fewer than three corners"));
 }
 
 TEST(UnusualPly, ColorsOfAnyTypeCountToWhatTheyCountTo) {

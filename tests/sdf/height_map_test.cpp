@@ -252,7 +252,8 @@ TEST(HeightMapFile, NoDataIsKnownHoweverItIsSpelled) {
     if (announced) {
       EXPECT_THAT(read.warnings, IsEmpty()) << keys << hole;
     } else {
-      EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("a.asc: 1 cells without data, which no")))
+      EXPECT_THAT(read.warnings,
+                  ElementsAre(HasSubstr("a.asc: filling 1 cell without data, which no")))
           << keys << hole;
     }
   };
@@ -346,7 +347,7 @@ TEST(HeightMapFile, TransparentPixelsHaveNoHeight) {
   writePng(folder / "a.png", image);
   const Read read = readWarned("a.png", readFile(folder / "a.png"));
   EXPECT_EQ(read.map.heights, std::vector<float>(9, 10));
-  EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("a.png: 1 transparent pixels")));
+  EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("a.png: filling 1 transparent pixel ")));
 }
 
 TEST(HeightMapFile, WritesMapsOfFewBitsAsBrightAsTheyWere) {
