@@ -265,6 +265,12 @@ const Json* GltfDocument::object(const Json& object, const char* key,
   return &*found;
 }
 
+const Json* GltfDocument::extension(const Json& object, const char* name,
+                                    const std::string& place) const {
+  const Json* extensions = this->object(object, "extensions", place);
+  return extensions ? this->object(*extensions, name, place) : nullptr;
+}
+
 const Json* GltfDocument::array(const Json& object, const char* key,
                                 const std::string& place) const {
   const auto found = object.find(key);

@@ -65,6 +65,8 @@ class GltfDocument {
                const std::string& place) const;
   /// A member that is an object, or null where it is missing.
   const Json* object(const Json& object, const char* key, const std::string& place) const;
+  /// What an object says under an extension's name; null where it does not have it.
+  const Json* extension(const Json& object, const char* name, const std::string& place) const;
   /// A member that is an array, or null where it is missing.
   const Json* array(const Json& object, const char* key, const std::string& place) const;
 

@@ -5,14 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <set>
 #include <tuple>
 #include <unordered_map>
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/text_scanner.h"
 #include "mesh/gltf_document.h"
+#include "mesh/gltf_materials.h"
 #include "mesh/mesh_formats.h"
 
 namespace exemplar {
@@ -71,22 +70,6 @@ struct Instance {
   const DecodedMesh* decoded = nullptr;
 };
 
-/// How a material's base-color texture is looked up.
-struct TextureUse {
-  std::uint64_t texCoord = 0;
-  std::array<double, 2> offset{0, 0}, scale{1, 1};
-  double rotation = 0;
-
-  /// The texture coordinate, v up, for one in the file, v down (KHR_texture_transform turns
-  /// counterclockwise as seen on the picture).
-  Vec2f apply(double u, double v) const {
-    const double c = std::cos(rotation), s = std::sin(rotation);
-    const double scaledU = u * scale[0], scaledV = v * scale[1];
-    return {static_cast<float>(offset[0] + c * scaledU + s * scaledV),
-            static_cast<float>(1 - (offset[1] - s * scaledU + c * scaledV))};
-  }
-};
-
 /// Gives each different pair of position and color one vertex of a mesh.
 class Joiner {
  public:
@@ -116,10 +99,7 @@ class Joiner {
 class GltfReader {
  public:
   GltfReader(std::string_view bytes, const MeshSource& source)
-      : in_(bytes, source), source_(source) {
-    materialUsed_.resize(in_.count("materials"), false);
-    textureUses_.resize(in_.count("materials"));
-  }
+      : in_(bytes, source), source_(source), materials_(in_, source, mesh_) {}
 
   TriangleMesh read() {
     findInstances();
@@ -129,7 +109,7 @@ class GltfReader {
                                                           static_cast<double>(instances_.size()));
       add(instances_[i]);
     }
-    finishMaterials();
+    materials_.finish();
     return std::move(mesh_);
   }
 
@@ -230,14 +210,9 @@ class GltfReader {
     }
   }
 
-  const Json* extension(const Json& object, const char* name, const std::string& place) const {
-    const Json* extensions = in_.object(object, "extensions", place);
-    return extensions ? in_.object(*extensions, name, place) : nullptr;
-  }
-
   /// KHR_node_visibility hides a node with all below it.
   bool isVisible(const Json& node, const std::string& place) const {
-    const Json* visibility = extension(node, "KHR_node_visibility", place);
+    const Json* visibility = in_.extension(node, "KHR_node_visibility", place);
     if (!visibility) return true;
     const auto visible = visibility->find("visible");
     return visible == visibility->end() || !visible->is_boolean() || visible->get<bool>();
@@ -254,7 +229,7 @@ class GltfReader {
     if (instance.weights.empty()) {
       instance.weights = weightsOf(json, "meshes[" + std::to_string(*mesh) + "]");
     }
-    const Json* instancing = extension(node, "EXT_mesh_gpu_instancing", place);
+    const Json* instancing = in_.extension(node, "EXT_mesh_gpu_instancing", place);
     if (!instancing) {
       instances_.push_back(std::move(instance));
       return;
@@ -352,7 +327,7 @@ class GltfReader {
       const auto position = in_.index(*attributes, "POSITION", at + ".attributes");
       if (!position) in_.fail(at + " has no POSITION");
       const auto color = in_.index(*attributes, "COLOR_0", at + ".attributes");
-      if (extension(json, "KHR_draco_mesh_compression", at) &&
+      if (in_.extension(json, "KHR_draco_mesh_compression", at) &&
           !in_.element("accessors", *position, at).contains("bufferView")) {
         in_.fail(at +
                  " is compressed (KHR_draco_mesh_compression), which is not supported; save "
@@ -380,7 +355,7 @@ class GltfReader {
       const std::vector<std::uint32_t> corners = decodeIndices(json, vertices.positions.size(), at);
       primitive.triangles = trianglesOf(corners, mode, at);
       if (const auto material = in_.index(json, "material", at)) {
-        useMaterial(*material, at);
+        materials_.use(*material, at);
         primitive.material = static_cast<std::uint32_t>(*material);
       }
       decodeUvs(primitive, *attributes, vertices.positions.size(), uvsOf, at);
@@ -572,8 +547,8 @@ class GltfReader {
 
   void decodeUvs(Primitive& primitive, const Json& attributes, std::size_t vertices,
                  std::map<std::uint64_t, std::vector<double>>& uvsOf, const std::string& at) {
-    TextureUse use;
-    if (primitive.material != kNone) use = textureUses_[primitive.material];
+    GltfTextureUse use;
+    if (primitive.material != kNone) use = materials_.textureUse(primitive.material);
     const std::string key = "TEXCOORD_" + std::to_string(use.texCoord);
     const auto index = in_.index(attributes, key.c_str(), at + ".attributes");
     if (!index) return;
@@ -604,41 +579,6 @@ class GltfReader {
         }
       }
     }
-  }
-
-  /// Marks a material as used and finds out how its texture is looked up.
-  void useMaterial(std::uint64_t index, const std::string& at) {
-    const Json& json = in_.element("materials", index, at);
-    if (materialUsed_[index]) return;
-    materialUsed_[index] = true;
-    const std::string place = "materials[" + std::to_string(index) + "]";
-    const Json* texture = baseColorTexture(json, place);
-    if (!texture) return;
-    TextureUse& use = textureUses_[index];
-    use.texCoord = in_.index(*texture, "texCoord", place).value_or(0);
-    const Json* extensions = in_.object(*texture, "extensions", place);
-    if (!extensions) return;
-    if (const Json* transform = in_.object(*extensions, "KHR_texture_transform", place)) {
-      const std::string within = place + ".KHR_texture_transform";
-      in_.numbers(*transform, "offset", 2, use.offset.data(), within);
-      in_.numbers(*transform, "scale", 2, use.scale.data(), within);
-      use.rotation = in_.number(*transform, "rotation", 0, within);
-      use.texCoord = in_.index(*transform, "texCoord", within).value_or(use.texCoord);
-    }
-  }
-
-  /// The older model of a material, where it has that one (KHR_materials_pbrSpecularGlossiness)
-  /// and not the standard's beside it.
-  const Json* specularGlossiness(const Json& material, const std::string& place) const {
-    if (material.contains("pbrMetallicRoughness")) return nullptr;
-    return extension(material, "KHR_materials_pbrSpecularGlossiness", place);
-  }
-
-  const Json* baseColorTexture(const Json& material, const std::string& place) const {
-    if (const Json* older = specularGlossiness(material, place))
-      return in_.object(*older, "diffuseTexture", place);
-    const Json* pbr = in_.object(material, "pbrMetallicRoughness", place);
-    return pbr ? in_.object(*pbr, "baseColorTexture", place) : nullptr;
   }
 
   void add(const Instance& instance) {
@@ -712,194 +652,14 @@ class GltfReader {
     return weights > 0 ? sum / weights : joints.front()(set.positions[v]);
   }
 
-  /// Keeps the materials that triangles use, in the order of the file; the standard's default one
-  /// comes last, for triangles without any.
-  void finishMaterials() {
-    std::vector<std::uint32_t> materialOf(materialUsed_.size() + 1, kNone);
-    const auto slotOf = [&](std::uint32_t m) { return m == kNone ? materialUsed_.size() : m; };
-    std::vector<bool> isUsed(materialUsed_.size() + 1, false);
-    for (const std::uint32_t m : mesh_.triangleMaterials) isUsed[slotOf(m)] = true;
-    const bool onlyDefault = std::find(isUsed.begin(), isUsed.end() - 1, true) == isUsed.end() - 1;
-    if (onlyDefault || isPlaceholder(isUsed)) {
-      mesh_.triangleMaterials.clear();
-      return;
-    }
-    for (std::size_t m = 0; m < isUsed.size(); ++m) {
-      if (!isUsed[m]) continue;
-      materialOf[m] = static_cast<std::uint32_t>(mesh_.materials.size());
-      mesh_.materials.push_back(
-          m < materialUsed_.size()
-              ? readMaterial(m)
-              : Material{.baseColor = {1, 1, 1, 1}, .metallic = 1, .roughness = 1});
-    }
-    for (std::uint32_t& m : mesh_.triangleMaterials) m = materialOf[slotOf(m)];
-    warnOfMaterials();
-  }
-
-  /// Whether the only material is the one that `formatGlb` gives a mesh without materials.
-  bool isPlaceholder(const std::vector<bool>& isUsed) const {
-    if (std::count(isUsed.begin(), isUsed.end(), true) != 1 || isUsed.back()) return false;
-    const std::size_t m =
-        static_cast<std::size_t>(std::find(isUsed.begin(), isUsed.end(), true) - isUsed.begin());
-    const Json& json = in_.element("materials", m, "a primitive");
-    const auto extras = json.find("extras");
-    return extras != json.end() && extras->is_object() && extras->contains("exemplarPlaceholder");
-  }
-
-  Material readMaterial(std::uint64_t index) {
-    const std::string place = "materials[" + std::to_string(index) + "]";
-    const Json& json = in_.element("materials", index, place);
-    Material m{.name = in_.text(json, "name", place),
-               .baseColor = {1, 1, 1, 1},
-               .metallic = 1,
-               .roughness = 1};
-    if (const Json* pbr = in_.object(json, "pbrMetallicRoughness", place)) {
-      double color[4];
-      if (in_.numbers(*pbr, "baseColorFactor", 4, color, place)) {
-        for (int c = 0; c < 4; ++c) m.baseColor[c] = bounded(color[c], 1, place);
-      }
-      m.metallic = bounded(in_.number(*pbr, "metallicFactor", 1, place), 1, place);
-      m.roughness = bounded(in_.number(*pbr, "roughnessFactor", 1, place), 1, place);
-      // A factor without the map that it multiplies would make all of the surface metal.
-      if (hasUnreadMap(*pbr, "metallicRoughnessTexture", place)) {
-        m.metallic = Material{}.metallic;
-        m.roughness = Material{}.roughness;
-      }
-    }
-    if (const Json* older = specularGlossiness(json, place))
-      readSpecularGlossiness(*older, m, place);
-    hasUnreadMap(json, "normalTexture", place);
-    hasUnreadMap(json, "occlusionTexture", place);
-    noteExtensions(json, place);
-    const std::string alphaMode = in_.text(json, "alphaMode", place);
-    if (alphaMode.empty() || alphaMode == "OPAQUE") m.baseColor[3] = 1;  // so the standard says
-    double emission[3];
-    const bool hasFactor = in_.numbers(json, "emissiveFactor", 3, emission, place);
-    // The same for light: without its map a lamp's pattern would be a glowing wall.
-    if (hasFactor && !hasUnreadMap(json, "emissiveTexture", place)) {
-      double strength = 1;
-      if (const Json* extensions = in_.object(json, "extensions", place)) {
-        if (const Json* e = in_.object(*extensions, "KHR_materials_emissive_strength", place)) {
-          strength = in_.number(*e, "emissiveStrength", 1, place);
-        }
-      }
-      for (int c = 0; c < 3; ++c) m.emission[c] = bounded(emission[c] * strength, 1e30, place);
-    }
-    if (const Json* texture = baseColorTexture(json, place))
-      m.baseColorTexture = readTexture(*texture, place);
-    return m;
-  }
-
-  /// The diffuse color; a specular color has no place here, gloss becomes roughness.
-  void readSpecularGlossiness(const Json& json, Material& m, const std::string& place) {
-    double color[4];
-    if (in_.numbers(json, "diffuseFactor", 4, color, place)) {
-      for (int c = 0; c < 4; ++c) m.baseColor[c] = bounded(color[c], 1, place);
-    }
-    m.metallic = 0;
-    m.roughness = 1 - bounded(in_.number(json, "glossinessFactor", 1, place), 1, place);
-    if (hasUnreadMap(json, "specularGlossinessTexture", place)) m.roughness = Material{}.roughness;
-  }
-
-  /// Whether a material has a map that is not read.
-  bool hasUnreadMap(const Json& json, const char* key, const std::string& place) {
-    if (!in_.object(json, key, place)) return false;
-    unreadMaps_.insert(key);
-    return true;
-  }
-
-  void noteExtensions(const Json& material, const std::string& place) {
-    const Json* extensions = in_.object(material, "extensions", place);
-    if (!extensions) return;
-    for (const auto& item : extensions->items()) {
-      if (item.key() != "KHR_materials_emissive_strength" &&
-          item.key() != "KHR_materials_pbrSpecularGlossiness") {
-        unreadExtensions_.insert(TextScanner::shown(item.key()));
-      }
-    }
-  }
-
-  void warnOfMaterials() const {
-    const auto list = [](const std::set<std::string>& names) {
-      std::string text;
-      for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-      return text;
-    };
-    if (!unreadMaps_.empty()) source_.warn("maps that are not read: " + list(unreadMaps_));
-    if (!unreadExtensions_.empty())
-      source_.warn("extensions of materials that are not read: " + list(unreadExtensions_));
-  }
-
-  float bounded(double value, double most, const std::string& place) const {
-    if (!(value >= 0 && value <= most))
-      in_.fail(place + " has a factor that is negative or too large");
-    return static_cast<float>(value);
-  }
-
-  /// The texture that a material refers to; none, and a warning, where its picture is missing or no
-  /// PNG or JPEG.
-  std::optional<std::uint32_t> readTexture(const Json& info, const std::string& place) {
-    const auto texture = in_.index(info, "index", place + ".baseColorTexture");
-    if (!texture) in_.fail(place + ".baseColorTexture.index is missing");
-    const std::string at = "textures[" + std::to_string(*texture) + "]";
-    const auto image = in_.index(in_.element("textures", *texture, place), "source", at);
-    if (!image) {
-      source_.warn("the picture of " + at + " is neither PNG nor JPEG and is left out");
-      return std::nullopt;
-    }
-    const auto [found, added] = textureOf_.try_emplace(*image);
-    if (!added) return found->second;
-    std::optional<std::string> bytes = in_.image(*image, at);
-    const std::string mimeType = bytes ? imageMimeType(*bytes) : "";
-    if (mimeType.empty()) {
-      source_.warn("the picture " + imageName(*image) +
-                   (bytes ? " is neither PNG nor JPEG" : " is not found") + " and is left out");
-      return std::nullopt;
-    }
-    found->second = static_cast<std::uint32_t>(mesh_.textures.size());
-    mesh_.textures.push_back({textureName(*image, mimeType), mimeType, std::move(*bytes)});
-    return found->second;
-  }
-
-  /// What messages call a picture.
-  std::string imageName(std::uint64_t image) const {
-    const std::string place = "images[" + std::to_string(image) + "]";
-    const Json& json = in_.element("images", image, "a texture");
-    const std::string uri = in_.text(json, "uri", place);
-    const std::string name = in_.text(json, "name", place);
-    if (!uri.empty() && !uri.starts_with("data:")) return TextScanner::shown(uri);
-    return name.empty() ? place : TextScanner::shown(name);
-  }
-
-  std::string textureName(std::uint64_t image, const std::string& mimeType) const {
-    const Json& json = in_.element("images", image, "a texture");
-    const std::string place = "images[" + std::to_string(image) + "]";
-    std::string base = in_.text(json, "name", place);
-    const std::string uri = in_.text(json, "uri", place);
-    if (base.empty() && !uri.starts_with("data:")) base = uri.substr(uri.find_last_of('/') + 1);
-    if (base.empty()) base = "texture" + std::to_string(image);
-    const std::string ending = mimeType == "image/png" ? ".png" : ".jpg";
-    if (!base.ends_with(ending) && !base.ends_with(".jpeg")) base += ending;
-    std::string unique = base;
-    const auto isTaken = [&] {
-      return std::any_of(mesh_.textures.begin(), mesh_.textures.end(),
-                         [&](const Texture& t) { return t.name == unique; });
-    };
-    for (int n = 2; isTaken(); ++n) unique = std::to_string(n) + "_" + base;
-    return unique;
-  }
-
   GltfDocument in_;
   const MeshSource& source_;
   TriangleMesh mesh_;
+  GltfMaterials materials_;
   std::vector<Instance> instances_;
   /// By mesh, whether a skin moves it, and its weights.
   std::map<std::tuple<std::uint64_t, bool, std::vector<double>>, DecodedMesh> meshes_;
   std::vector<std::optional<Transform>> placed_;  // the nodes of the scene in world space
-  std::set<std::string> unreadMaps_, unreadExtensions_;
-  std::vector<bool> materialUsed_;
-  std::vector<TextureUse> textureUses_;
-  std::map<std::uint64_t, std::optional<std::uint32_t>> textureOf_;
 };
 
 }  // namespace
