@@ -90,6 +90,10 @@ std::optional<double> parseNumber(std::string_view word) {
   return whole(pointed);
 }
 
+std::string counted(std::size_t count, std::string_view noun) {
+  return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+}
+
 std::string lowerCase(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) {

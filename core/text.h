@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ std::string_view asUtf8(std::string_view bytes, std::string& decoded);
 /// comma (as programs write it whose author forgot the locale), "nan" or "inf"; nothing where it is
 /// none or is out of a double's range. The same in every locale.
 std::optional<double> parseNumber(std::string_view word);
+
+/// A number of things: "1 face", "3 faces".
+std::string counted(std::size_t count, std::string_view noun);
 
 /// ASCII letters made lower-case; other bytes stay, whatever the locale.
 std::string lowerCase(std::string_view text);

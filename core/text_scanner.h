@@ -77,10 +77,11 @@ class TextScanner {
     }
     return word();
   }
-  /// The capital letters that come next, with no blanks skipped.
+  /// The ASCII letters that come next, with no blanks skipped.
   std::string_view letters() {
     const char* begin = cursor_;
-    while (cursor_ != lineEnd_ && *cursor_ >= 'A' && *cursor_ <= 'Z') ++cursor_;
+    const auto isLetter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+    while (cursor_ != lineEnd_ && isLetter(*cursor_)) ++cursor_;
     return {begin, static_cast<std::size_t>(cursor_ - begin)};
   }
   /// The rest of the line without blanks around it; a comment in it stays.
@@ -99,21 +100,41 @@ class TextScanner {
     return true;
   }
 
+  /// The next word, without moving.
+  std::string_view peekWord() {
+    skipBlanks();
+    const char* end = cursor_;
+    while (end != lineEnd_ && !isBlank(*end)) ++end;
+    return {cursor_, static_cast<std::size_t>(end - cursor_)};
+  }
+
   /// The next number; `what` is what errors call it. Too small becomes 0; "nan" and "inf" are
   /// numbers.
   double number(const char* what) {
-    const std::optional<double> value = tryNumber();
-    if (!value) failAtWord(what, "a number");
-    if (*value == kTooLarge) fail(std::string(what) + " is too large: " + shown(word()));
-    return *value;
+    if (const std::optional<double> value = tryNumber()) return *value;
+    double ignored = 0;
+    const std::string_view found = peekWord();
+    const auto [end, error] = std::from_chars(cursor_, lineEnd_, ignored);
+    if (error == std::errc::result_out_of_range)
+      fail(std::string(what) + " is too large: " + shown(found));
+    failAtWord(what, "a number");
   }
-  /// The next number, with `fallback` for a word that is none ("-1.#IND") or is too large for a
-  /// double; at the line's end, where nothing is left to take, an error.
-  double numberOr(double fallback, const char* what) {
-    const std::optional<double> value = tryNumber();
-    if (value && *value != kTooLarge) return *value;
-    if (word().empty()) failAtWord(what, "a number");
-    return fallback;
+  /// The next number; nothing, without moving, where the next word is none, or one that no double
+  /// can hold.
+  std::optional<double> tryNumber() {
+    skipBlanks();
+    const char* begin = cursor_ != lineEnd_ && *cursor_ == '+' ? cursor_ + 1 : cursor_;
+    double value = 0;
+    const auto [end, error] = std::from_chars(begin, lineEnd_, value);
+    if (error == std::errc::result_out_of_range) {
+      if (!isTiny({begin, static_cast<std::size_t>(end - begin)})) return std::nullopt;
+      value = 0;
+    } else if (error != std::errc{}) {
+      return std::nullopt;
+    }
+    if (!endsWord(end)) return *end == ',' ? tryCommaNumber(begin, end) : std::nullopt;
+    cursor_ = end;
+    return value;
   }
   /// The next whole number.
   std::int64_t integer(const char* what) {
@@ -160,9 +181,6 @@ class TextScanner {
   }
 
  private:
-  /// What `tryNumber` gives for a number that no double can hold, which no text spells.
-  static constexpr double kTooLarge = 0x1.fffffffffffffp1023;
-
   static bool isBlank(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
   bool endsWord(const char* p) const {
@@ -204,24 +222,6 @@ class TextScanner {
       if (after != lineEnd_ || next_ == end_) return;
       takeLine();
     }
-  }
-
-  /// The next number; nothing, without moving, where the next word is none. A number that is too
-  /// large is `kTooLarge`, without moving.
-  std::optional<double> tryNumber() {
-    skipBlanks();
-    const char* begin = cursor_ != lineEnd_ && *cursor_ == '+' ? cursor_ + 1 : cursor_;
-    double value = 0;
-    const auto [end, error] = std::from_chars(begin, lineEnd_, value);
-    if (error == std::errc::result_out_of_range) {
-      if (!endsWord(end)) return std::nullopt;
-      if (!isTiny({begin, static_cast<std::size_t>(end - begin)})) return kTooLarge;
-      value = 0;
-    } else if (error != std::errc{} || !endsWord(end)) {
-      return error == std::errc{} && *end == ',' ? tryCommaNumber(begin, end) : std::nullopt;
-    }
-    cursor_ = end;
-    return value;
   }
 
   /// A number with a decimal comma, as programs write it whose author forgot the locale.

@@ -85,14 +85,24 @@ std::string unescaped(std::string_view uri) {
   return text;
 }
 
-/// Extensions that change how the file is to be read, and that the reader honors or that only
-/// change the look in ways that `Material` does not hold.
-bool isKnown(const std::string& extension) {
-  for (const char* known : {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",
-                            "KHR_node_visibility", "KHR_xmp_json_ld"}) {
+/// Whether the reader honors an extension, or it changes nothing that a mesh holds.
+bool isHonored(std::string_view extension) {
+  for (const char* known :
+       {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_node_visibility",
+        "EXT_mesh_gpu_instancing", "KHR_materials_emissive_strength",
+        "KHR_materials_pbrSpecularGlossiness", "KHR_lights_punctual", "KHR_xmp_json_ld", "KHR_xmp",
+        "KHR_animation_pointer", "EXT_lights_image_based", "EXT_lights_ies", "KHR_audio_emitter",
+        "EXT_structural_metadata", "EXT_mesh_features", "MSFT_lod", "KHR_physics_rigid_bodies",
+        "KHR_implicit_shapes"}) {
     if (extension == known) return true;
   }
-  return extension.starts_with("KHR_materials_");
+  return false;
+}
+
+/// Whether an extension changes only how surfaces look: without it the shape is right.
+bool isLookOnly(std::string_view extension) {
+  if (extension.find("_materials_") != std::string_view::npos) return true;
+  return extension.find("_texture_") != std::string_view::npos;
 }
 
 }  // namespace
@@ -155,7 +165,7 @@ GltfDocument::GltfDocument(std::string_view bytes, const MeshSource& source)
   }
   if (!root_.is_object()) fail("its JSON should be an object");
   for (const char* key : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers",
-                          "materials", "textures", "images"}) {
+                          "materials", "textures", "images", "skins"}) {
     if (root_.contains(key) && !root_[key].is_array())
       fail(std::string(key) + " should be an array");
   }
@@ -169,9 +179,14 @@ void GltfDocument::refuseExtensions() const {
   for (const Json& extension : *required) {
     if (!extension.is_string()) fail("extensionsRequired should hold names");
     const std::string& wanted = extension.get_ref<const std::string&>();
-    if (isKnown(wanted)) continue;
+    if (isHonored(wanted)) continue;
+    if (isLookOnly(wanted)) {
+      source_.warn("the extension " + TextScanner::shown(wanted) +
+                   " is not read; surfaces may look different");
+      continue;
+    }
     fail("the file needs the glTF extension " + TextScanner::shown(wanted) +
-         ", which is not supported; save it without (no mesh compression, PNG or JPEG textures)");
+         ", which is not supported; save it without (no mesh compression)");
   }
 }
 
@@ -248,6 +263,12 @@ const Json* GltfDocument::object(const Json& object, const char* key,
   if (found == object.end()) return nullptr;
   if (!found->is_object()) fail(place + "." + key + " should be an object");
   return &*found;
+}
+
+const Json* GltfDocument::extension(const Json& object, const char* name,
+                                    const std::string& place) const {
+  const Json* extensions = this->object(object, "extensions", place);
+  return extensions ? this->object(*extensions, name, place) : nullptr;
 }
 
 const Json* GltfDocument::array(const Json& object, const char* key,
@@ -333,8 +354,11 @@ GltfAccessor GltfDocument::accessor(std::uint64_t index, const std::string& from
                  : type == "VEC2" ? 2
                  : type == "VEC3" ? 3
                  : type == "VEC4" ? 4
+                 : type == "MAT4" ? 16
                                   : 0;
-  if (a.components == 0) fail(a.place + ".type should be SCALAR, VEC2, VEC3 or VEC4 here");
+  if (a.components == 0) fail(a.place + ".type should be SCALAR, VEC2, VEC3, VEC4 or MAT4 here");
+  // Columns of smaller components would be padded; no use of matrices allows them.
+  if (a.components == 16 && a.componentType != kFloat) fail(a.place + " should hold floats");
   const auto normalized = json.find("normalized");
   if (normalized != json.end()) {
     if (!normalized->is_boolean()) fail(a.place + ".normalized should be true or false");

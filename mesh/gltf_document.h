@@ -21,7 +21,7 @@ struct GltfAccessor {
   std::string place;  ///< what errors call it: "accessors[3]"
   std::uint64_t count = 0;
   int componentType = 0;  ///< GL_BYTE (5120) .. GL_FLOAT (5126)
-  int components = 0;     ///< 1 for SCALAR .. 4 for VEC4
+  int components = 0;     ///< 1 for SCALAR .. 4 for VEC4, 16 for MAT4
   bool normalized = false;
 
   /// The first vector's bytes, `stride` from one vector to the next; null where all are zero.
@@ -65,6 +65,8 @@ class GltfDocument {
                const std::string& place) const;
   /// A member that is an object, or null where it is missing.
   const Json* object(const Json& object, const char* key, const std::string& place) const;
+  /// What an object says under an extension's name; null where it does not have it.
+  const Json* extension(const Json& object, const char* name, const std::string& place) const;
   /// A member that is an array, or null where it is missing.
   const Json* array(const Json& object, const char* key, const std::string& place) const;
 

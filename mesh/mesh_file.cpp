@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "mesh/color.h"
 #include "mesh/mesh_formats.h"
 
@@ -41,6 +42,21 @@ bool isYUp(Format format, UpAxis up) {
                    ": not a mesh file's ending; use .obj, .ply, .stl, .off, .glb or .gltf");
 }
 
+/// The regular file at a path; where none is, one whose name differs only by capitals, which make
+/// no difference where many of these files are written.
+std::optional<fs::path> findFile(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) return path;
+  const std::string wanted = lowerCase(path.filename().string());
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (lowerCase(entry->path().filename().string()) != wanted) continue;
+    if (entry->is_regular_file(error)) return entry->path();
+  }
+  return std::nullopt;
+}
+
 /// The file called `name` in a file, as seen from the folder of that file; files that were written
 /// on another machine often name a folder that is not here, so the name alone is tried after that.
 std::optional<std::string> readSibling(const fs::path& folder, std::string name) {
@@ -50,10 +66,10 @@ std::optional<std::string> readSibling(const fs::path& folder, std::string name)
   if (name.find('\0') != std::string::npos) return std::nullopt;
   const fs::path path(name);
   for (const fs::path& candidate : {path, path.filename()}) {
+    if (candidate.empty() || candidate.is_absolute()) continue;
+    const std::optional<fs::path> found = findFile(folder / candidate);
     std::error_code error;
-    const fs::path full = folder / candidate;
-    if (candidate.empty() || candidate.is_absolute() || !fs::is_regular_file(full, error)) continue;
-    return readFile(full);
+    if (found && fs::file_size(*found, error) > 0 && !error) return readFile(*found);
   }
   return std::nullopt;
 }
@@ -108,6 +124,14 @@ void writeMesh(const fs::path& path, const TriangleMesh& mesh, const MeshFileOpt
   const bool yUp = isYUp(format, options.up);
   const Progress formatting = progress.part(0, 0.8), writing = progress.part(0.8, 1);
   OutputFile out(path);
+  constexpr double kVisible = 1e-5;
+  if (format == Format::Stl && floatRounding(mesh) > kVisible) {
+    warn(options.warnings,
+         path.string() +
+             ": coordinates are so far from the origin that this format's floats "
+             "move them by more than 1e-5 of the mesh's size; write .obj, .ply or "
+             ".glb to keep them");
+  }
   if (format != Format::Obj) {
     out.write(format == Format::Ply   ? formatPly(mesh, yUp, formatting)
               : format == Format::Stl ? formatStl(mesh, yUp, formatting)
@@ -129,6 +153,16 @@ void writeMesh(const fs::path& path, const TriangleMesh& mesh, const MeshFileOpt
   }
   for (const auto& file : siblings) file->commit();
   out.commit();
+}
+
+double floatRounding(const TriangleMesh& mesh) {
+  const Box3d box = boundingBox(mesh);
+  const Vec3d size = box.size();
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  const double side = std::max({size.x, size.y, size.z});
+  return side > 0 ? largest * 0x1p-24 / side : 0;
 }
 
 const char* coordinateProblem(const Vec3d& p) {

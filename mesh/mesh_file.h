@@ -65,7 +65,7 @@ TriangleMesh readMesh(const std::filesystem::path& path, const MeshFileOptions& 
 
 /// The same from the bytes of a file. `name` is what errors call it; its ending says the format.
 TriangleMesh readMesh(std::string_view bytes, const std::string& name,
-                      const MeshFileOptions& options = {}, const Progress& progress = {});
+                      const MeshFileOptions& options, const Progress& progress = {});
 
 /// Writes a mesh in the format of the path's ending, with what that format can hold:
 ///
@@ -76,6 +76,9 @@ TriangleMesh readMesh(std::string_view bytes, const std::string& name,
 /// | `.stl` | float | - | - | - | - |
 /// | `.off` | exact | 8 bits sRGB | - | color, 8 bits sRGB | - |
 /// | `.glb`, `.gltf` | float | exact, clamped to 0..1 | v to 2^-24 | exact | embedded |
+///
+/// Floats are those of a mesh that a node moves to its place where it is far from the origin
+/// (`.glb`), or lose digits there, which a warning states (`.stl`).
 ///
 /// "Exact" is what comes back from `readMesh`; 8-bit colors that came from a file come back
 /// exactly, too. A `.glb` has one primitive for each material, in their order, with the triangles

@@ -82,6 +82,10 @@ std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, 
 inline Vec3d toFileAxes(const Vec3d& p, bool yUp) { return yUp ? Vec3d{p.x, p.z, 0 - p.y} : p; }
 inline Vec3d fromFileAxes(const Vec3d& p, bool yUp) { return yUp ? Vec3d{p.x, 0 - p.z, p.y} : p; }
 
+/// How far floats move a mesh's vertices, as a share of its longest side: about 1e-7 for a mesh at
+/// the origin, 1 where coordinates are ten million times its size.
+double floatRounding(const TriangleMesh& mesh);
+
 /// Why a coordinate cannot be taken ("is NaN or infinite"), or null.
 const char* coordinateProblem(const Vec3d& p);
 

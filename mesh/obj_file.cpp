@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "core/text_scanner.h"
 #include "mesh/color.h"
 #include "mesh/mesh_formats.h"
@@ -18,6 +19,11 @@ namespace exemplar {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
+/// A texture coordinate that a corner names and that cannot be; so far past the last one that no
+/// file gets there.
+constexpr std::uint32_t kMissing = kNone - 1;
+/// The color of a vertex without one; no color in a file has such numbers.
+constexpr std::array<double, 4> kUncolored{-1e9, -1e9, -1e9, -1e9};
 
 /// Reads an `.obj`. Materials are collected by name while reading and looked up at the end, since
 /// libraries may be named anywhere.
@@ -40,16 +46,30 @@ class ObjReader {
         useMaterial(std::string(in_.rest()));
       } else if (key == "mtllib") {
         readLibrary(std::string(in_.rest()));
+      } else if (key == "surf" || key == "curv") {
+        source_.warn("free-form curves and surfaces are left out");
       }
     }
+    addPendingFaces();
+    resolveColors();
     if (hasUvs_) resolveUvs();
     resolveMaterials();
+    if (shortFaces_ > 0) {
+      source_.warn("leaving out " + counted(shortFaces_, "face") +
+                   " with fewer than three corners");
+    }
     return std::move(mesh_);
   }
 
  private:
   struct Corner {
     std::uint32_t position, uv;
+  };
+  /// A face that names vertices which come after it in the file.
+  struct PendingFace {
+    std::size_t begin, end;  ///< its corners in `pendingCorners_`
+    std::uint32_t material;
+    std::int64_t line;
   };
 
   void readVertex() {
@@ -64,47 +84,81 @@ class ObjReader {
     mesh_.positions.push_back(p);
     // x y z [w] or x y z r g b [a].
     if (count >= 3) {
-      mesh_.colors.resize(mesh_.positions.size() - 1, {1, 1, 1, 1});
-      const auto linear = [](double c) { return static_cast<float>(srgbToLinear(c)); };
-      mesh_.colors.push_back({linear(more[0]), linear(more[1]), linear(more[2]),
-                              count == 4 ? static_cast<float>(more[3]) : 1.0f});
-      for (int i = 0; i < count; ++i) {
-        if (!(std::abs(more[i]) < 1e6)) in_.fail("a vertex color should be between 0 and 1");
+      colors_.resize(mesh_.positions.size() - 1, kUncolored);
+      colors_.push_back({more[0], more[1], more[2], count == 4 ? more[3] : 1});
+      for (const double c : colors_.back()) {
+        if (!(std::abs(c) < 1e6)) in_.fail("a vertex color should be between 0 and 1, or 255");
       }
-    } else if (!mesh_.colors.empty()) {
-      mesh_.colors.push_back({1, 1, 1, 1});
+    } else if (!colors_.empty()) {
+      colors_.push_back(kUncolored);
     }
     if (mesh_.positions.size() == kNone) in_.fail("more than 4294967294 vertices");
   }
 
+  /// Vertex colors to linear ones. Whole files count either to 1 or to 255 (or 65535), and only a
+  /// component above 1 tells which; a few writers count only the alpha to 1.
+  void resolveColors() {
+    if (colors_.empty()) return;
+    double most = 0, mostAlpha = 0;
+    bool whole = true;
+    for (const auto& c : colors_) {
+      if (c == kUncolored) continue;
+      for (int i = 0; i < 3; ++i) {
+        most = std::max(most, c[i]);
+        whole = whole && c[i] == std::floor(c[i]);
+      }
+      mostAlpha = std::max(mostAlpha, c[3]);
+    }
+    const auto rangeOf = [&](double largest) {
+      return largest <= 1 || !(whole || largest > 2) ? 1.0 : largest <= 255 ? 255.0 : 65535.0;
+    };
+    const double range = rangeOf(most), alphaRange = rangeOf(mostAlpha);
+    mesh_.colors.reserve(colors_.size());
+    for (const auto& c : colors_) {
+      if (c == kUncolored) {
+        mesh_.colors.push_back({1, 1, 1, 1});
+        continue;
+      }
+      const auto linear = [&](double s) { return static_cast<float>(srgbToLinear(s / range)); };
+      mesh_.colors.push_back(
+          {linear(c[0]), linear(c[1]), linear(c[2]), static_cast<float>(c[3] / alphaRange)});
+    }
+  }
+
   void readUv() {
-    const Vec2f uv{static_cast<float>(in_.number("u")),
-                   in_.atLineEnd() ? 0.0f : static_cast<float>(in_.number("v"))};
+    Vec2f uv{static_cast<float>(in_.number("u")),
+             in_.atLineEnd() ? 0.0f : static_cast<float>(in_.number("v"))};
     if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-      in_.fail("the texture coordinate is NaN or infinite");
+      source_.warn("texture coordinates that are NaN or infinite are taken as 0");
+      uv = {};
     }
     uvs_.push_back(uv);
   }
 
-  /// An index from the file, from 1 or backwards from -1, as an index from 0.
-  std::uint32_t index(std::size_t count, const char* what) {
-    const std::int64_t number = in_.integerPrefix(what);
-    const std::int64_t n = static_cast<std::int64_t>(count);
-    const std::int64_t i = number > 0 ? number - 1 : n + number;
-    if (number == 0 || i < 0 || i >= n) {
-      in_.fail(std::string(what) + " " + std::to_string(number) + " does not exist: there are " +
-               std::to_string(count) + " so far");
-    }
-    return static_cast<std::uint32_t>(i);
+  /// An index from the file, from 1 or backwards from -1, as an index from 0; `kNone` where it
+  /// points before the first. It may point behind what has been read.
+  std::uint32_t index(std::int64_t number, std::size_t count) const {
+    const std::int64_t i = number > 0 ? number - 1 : static_cast<std::int64_t>(count) + number;
+    return number == 0 || i < 0 || i >= kNone ? kNone : static_cast<std::uint32_t>(i);
+  }
+
+  [[noreturn]] void failAtVertex(std::int64_t line, std::int64_t number) const {
+    in_.fail(line, "vertex " + std::to_string(number) + " does not exist: the file has " +
+                       std::to_string(mesh_.positions.size()));
   }
 
   void readFace() {
     corners_.clear();
+    bool pending = !pending_.empty();
     while (!in_.atLineEnd()) {
-      Corner corner{index(mesh_.positions.size(), "vertex"), kNone};
+      const std::int64_t number = in_.integerPrefix("vertex");
+      Corner corner{index(number, mesh_.positions.size()), kNone};
+      if (corner.position == kNone) failAtVertex(in_.line(), number);
+      pending = pending || corner.position >= mesh_.positions.size();
       if (in_.take('/')) {
         if (in_.peekHere() != '/' && !in_.atWordEnd()) {
-          corner.uv = index(uvs_.size(), "texture coordinate");
+          corner.uv = index(in_.integerPrefix("texture coordinate"), uvs_.size());
+          if (corner.uv == kNone) corner.uv = kMissing;
         }
         // The normal's index is not needed; that it is a number is checked.
         if (in_.take('/') && !in_.atWordEnd()) in_.integerPrefix("the normal's index");
@@ -112,7 +166,32 @@ class ObjReader {
       if (!in_.atWordEnd()) in_.fail("a face's corner should be V, V/T, V//N or V/T/N");
       corners_.push_back(corner);
     }
-    if (corners_.size() < 3) in_.fail("a face needs three corners or more");
+    if (corners_.size() < 3) {
+      ++shortFaces_;
+    } else if (pending) {
+      const std::size_t begin = pendingCorners_.size();
+      pendingCorners_.insert(pendingCorners_.end(), corners_.begin(), corners_.end());
+      pending_.push_back({begin, pendingCorners_.size(), material_, in_.line()});
+    } else {
+      addFace(in_.line());
+    }
+  }
+
+  /// Adds the faces from the first on that named a vertex before it came, in the file's order.
+  void addPendingFaces() {
+    for (const PendingFace& face : pending_) {
+      corners_.assign(pendingCorners_.begin() + static_cast<std::ptrdiff_t>(face.begin),
+                      pendingCorners_.begin() + static_cast<std::ptrdiff_t>(face.end));
+      for (const Corner& c : corners_) {
+        if (c.position >= mesh_.positions.size())
+          failAtVertex(face.line, std::int64_t{c.position} + 1);
+      }
+      material_ = face.material;
+      addFace(face.line);
+    }
+  }
+
+  void addFace(std::int64_t line) {
     if (corners_.size() == 3) {
       addTriangle(corners_[0], corners_[1], corners_[2]);
       return;
@@ -121,8 +200,9 @@ class ObjReader {
     pieces_.clear();
     for (const Corner& c : corners_) points_.push_back(mesh_.positions[c.position]);
     if (!triangulate(points_, pieces_)) {
-      in_.fail("a concave face has " + std::to_string(corners_.size()) + " corners; at most " +
-               std::to_string(kMostCorners) + " can be cut into triangles");
+      in_.fail(line, "a concave face has " + std::to_string(corners_.size()) +
+                         " corners; at most " + std::to_string(kMostCorners) +
+                         " can be cut into triangles");
     }
     for (const auto& [a, b, c] : pieces_) addTriangle(corners_[a], corners_[b], corners_[c]);
   }
@@ -134,10 +214,28 @@ class ObjReader {
     mesh_.triangleMaterials.push_back(material_);
   }
 
+  /// Corners may name no texture coordinate, or one that no `vt` line defines.
   void resolveUvs() {
+    std::size_t missing = 0, found = 0;
+    const auto at = [&](std::uint32_t i) {
+      if (i == kNone) return Vec2f{};
+      if (i >= uvs_.size()) {
+        ++missing;
+        return Vec2f{};
+      }
+      ++found;
+      return uvs_[i];
+    };
     mesh_.uvs.reserve(uvIndices_.size());
-    const auto at = [&](std::uint32_t i) { return i == kNone ? Vec2f{} : uvs_[i]; };
-    for (const auto& [a, b, c] : uvIndices_) mesh_.uvs.push_back({at(a), at(b), at(c)});
+    for (const auto& [a, b, c] : uvIndices_) {
+      const Vec2f uvA = at(a), uvB = at(b), uvC = at(c);
+      mesh_.uvs.push_back({uvA, uvB, uvC});
+    }
+    if (missing > 0) {
+      source_.warn("corners name texture coordinates that the file does not have; " +
+                   std::string(found > 0 ? "they are taken as 0" : "none are read"));
+    }
+    if (found == 0) mesh_.uvs.clear();
   }
 
   void useMaterial(const std::string& name) {
@@ -148,12 +246,19 @@ class ObjReader {
   }
 
   void readLibrary(const std::string& file) {
-    // One name that may hold blanks, or several names.
+    // One name that may hold blanks, or several names, and a comment.
     if (addLibrary(file)) return;
-    for (std::size_t begin = 0; begin < file.size();) {
+    bool any = false;
+    for (std::size_t begin = 0; begin < file.size() && file[begin] != '#';) {
       const std::size_t end = std::min(file.find_first_of(" \t", begin), file.size());
-      if (end != begin && end - begin != file.size()) addLibrary(file.substr(begin, end - begin));
+      if (end != begin && end - begin != file.size()) {
+        any = addLibrary(file.substr(begin, end - begin)) || any;
+      }
       begin = end + 1;
+    }
+    if (!any) {
+      source_.warn("its material library " + TextScanner::shown(file) +
+                   " is not found; materials keep their names only");
     }
   }
 
@@ -161,15 +266,34 @@ class ObjReader {
     if (!libraries_.insert(file).second) return true;
     const std::optional<std::string> bytes = source_.siblingBytes(file);
     if (!bytes) return false;
-    for (MtlMaterial& m : parseMtl(*bytes, in_.name() + ": " + TextScanner::shown(file))) {
+    const std::string name = in_.name() + ": " + TextScanner::shown(file);
+    for (MtlMaterial& m : parseMtl(*bytes, name, source_.warnings)) {
       library_.push_back(std::move(m));
     }
     return true;
   }
 
+  /// Names with a comment behind them, which only the libraries can tell from names with blanks.
+  void dropComments() {
+    std::set<std::string> known;
+    for (const MtlMaterial& m : library_) known.insert(m.material.name);
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      std::string name = names_[i].substr(0, names_[i].find(" #"));
+      while (name.ends_with(' ') || name.ends_with('\t')) name.pop_back();
+      if (name.size() == names_[i].size() || known.contains(names_[i]) || !known.contains(name))
+        continue;
+      // The same material under its own name and with a comment is one.
+      const auto [found, added] = nameIndex_.try_emplace(name, static_cast<std::uint32_t>(i));
+      if (!added) {
+        for (std::uint32_t& m : mesh_.triangleMaterials) m = m == i ? found->second : m;
+      }
+    }
+  }
+
   /// Materials that faces use, in the order of the libraries, then those that no library has in the
   /// order of the faces, then a default one for faces without any.
   void resolveMaterials() {
+    dropComments();
     std::vector<bool> isUsed(names_.size() + 1, false);
     for (const std::uint32_t m : mesh_.triangleMaterials)
       isUsed[m == kNone ? names_.size() : m] = true;
@@ -178,12 +302,14 @@ class ObjReader {
       return;
     }
     std::vector<std::uint32_t> materialOf(names_.size() + 1, kNone);
+    std::set<std::string> unread;
     for (MtlMaterial& m : library_) {
       const auto found = nameIndex_.find(m.material.name);
       if (found == nameIndex_.end() || !isUsed[found->second]) continue;
       if (materialOf[found->second] != kNone) continue;  // defined twice: the first one holds
       materialOf[found->second] = static_cast<std::uint32_t>(mesh_.materials.size());
       m.material.baseColorTexture = loadTexture(m.baseColorFile);
+      unread.insert(m.otherMaps.begin(), m.otherMaps.end());
       mesh_.materials.push_back(std::move(m.material));
     }
     for (std::size_t i = 0; i <= names_.size(); ++i) {
@@ -192,16 +318,24 @@ class ObjReader {
       mesh_.materials.push_back(i < names_.size() ? Material{.name = names_[i]} : Material{});
     }
     for (std::uint32_t& m : mesh_.triangleMaterials) m = materialOf[m == kNone ? names_.size() : m];
+    if (unread.empty()) return;
+    std::string keys;
+    for (const std::string& key : unread) keys += (keys.empty() ? "" : ", ") + key;
+    source_.warn("maps that are not read: " + keys);
   }
 
-  /// The texture in a file; none where the file is not there or is no PNG or JPEG.
+  /// The texture in a file; none, and a warning, where the file is not there or is no PNG or JPEG.
   std::optional<std::uint32_t> loadTexture(const std::string& file) {
     if (file.empty()) return std::nullopt;
     const auto [found, added] = textureOf_.try_emplace(file);
     if (!added) return found->second;
     std::optional<std::string> bytes = source_.siblingBytes(file);
     const std::string mimeType = bytes ? imageMimeType(*bytes) : "";
-    if (mimeType.empty()) return std::nullopt;
+    if (mimeType.empty()) {
+      source_.warn("the texture " + TextScanner::shown(file) +
+                   (bytes ? " is neither PNG nor JPEG" : " is not found") + " and is left out");
+      return std::nullopt;
+    }
     found->second = static_cast<std::uint32_t>(mesh_.textures.size());
     mesh_.textures.push_back({textureName(file), mimeType, std::move(*bytes)});
     return found->second;
@@ -228,9 +362,11 @@ class ObjReader {
   TextScanner in_;
   const MeshSource& source_;
   TriangleMesh mesh_;
+  std::vector<std::array<double, 4>> colors_;  // as in the file; as many as positions, or none
   std::vector<Vec2f> uvs_;
   std::vector<std::array<std::uint32_t, 3>> uvIndices_;
   bool hasUvs_ = false;
+  std::size_t shortFaces_ = 0;
 
   std::uint32_t material_ = kNone;
   std::vector<std::string> names_;
@@ -240,6 +376,8 @@ class ObjReader {
   std::unordered_map<std::string, std::optional<std::uint32_t>> textureOf_;
 
   std::vector<Corner> corners_;
+  std::vector<Corner> pendingCorners_;
+  std::vector<PendingFace> pending_;
   std::vector<Vec3d> points_;
   std::vector<std::array<std::uint32_t, 3>> pieces_;
 };
@@ -289,7 +427,7 @@ std::vector<MtlMaterial> namedMaterials(const TriangleMesh& mesh, const std::str
   textureFiles.resize(mesh.textures.size());
   std::vector<MtlMaterial> materials;
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
-    MtlMaterial& m = materials.emplace_back(MtlMaterial{mesh.materials[i], ""});
+    MtlMaterial& m = materials.emplace_back(MtlMaterial{mesh.materials[i], "", {}});
     m.material.name = uniqueName(m.material.name, "material_" + std::to_string(i), takenNames);
     if (!m.material.baseColorTexture) continue;
     const std::uint32_t t = *m.material.baseColorTexture;

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/text_scanner.h"
@@ -10,6 +12,32 @@
 
 namespace exemplar {
 namespace {
+
+/// Whether the rows of a CNOFF file have the normal first, as Geomview defined it, or the color, as
+/// MeshLab writes it: normals have length 1, and colors no negative numbers.
+class NormalOrder {
+ public:
+  /// Takes a vertex's first `count` numbers: three of a normal and three or four of a color.
+  void add(const std::vector<double>& row, std::size_t count) {
+    look(row[0], row[1], row[2], front_);
+    look(row[count - 3], row[count - 2], row[count - 1], back_);
+  }
+  bool colorComesFirst() const {
+    if (front_.negative != back_.negative) return back_.negative;
+    return back_.units > front_.units;
+  }
+
+ private:
+  struct Seen {
+    bool negative = false;
+    std::size_t units = 0;
+  };
+  static void look(double x, double y, double z, Seen& seen) {
+    seen.negative = seen.negative || x < 0 || y < 0 || z < 0;
+    seen.units += std::abs(x * x + y * y + z * z - 1) < 0.02;
+  }
+  Seen front_, back_;
+};
 
 /// Reads Geomview's OFF: `[ST][C][N]OFF`, the counts, a line for each vertex and face.
 class OffReader {
@@ -44,28 +72,37 @@ class OffReader {
  private:
   void readKind() {
     if (!in_.nextFilledLine()) in_.fail("not an OFF file: it should begin with 'OFF'");
-    // Some writers leave no blank between "OFF" and the first count.
-    std::string_view kind = in_.letters();
-    const std::string whole(kind);
-    const auto drop = [&](std::string_view prefix) {
-      const bool found = kind.starts_with(prefix) && kind != "OFF";
-      if (found) kind.remove_prefix(prefix.size());
-      return found;
+    // Without its first word, which some writers leave out, a file begins with the counts.
+    const std::string_view first = in_.peekWord();
+    if (first.find_first_not_of("0123456789") == std::string_view::npos) return;
+    // Others leave no blank between "OFF" and the first count.
+    const std::string whole(in_.letters());
+    const std::string upper = upperCase(whole);
+    std::string_view kind = upper;
+    const auto drop = [&](std::string_view prefix, bool& found) {
+      if (!kind.starts_with(prefix) || kind == "OFF" || found) return false;
+      kind.remove_prefix(prefix.size());
+      return found = true;
     };
-    hasUvs_ = drop("ST");
-    hasColors_ = drop("C");
-    hasNormals_ = drop("N");
+    while (drop("ST", hasUvs_) || drop("C", hasColors_) || drop("N", hasNormals_)) {
+    }
     if (kind != "OFF") {
       in_.fail(
-          "not an OFF file that can be read: it should begin with OFF, COFF, NOFF, CNOFF or ST and "
-          "one of "
-          "these, not '" +
-          TextScanner::shown(whole) + "'");
+          "not an OFF file that can be read: it should begin with OFF, with ST, C and N in front "
+          "where vertices have texture coordinates, colors and normals, not '" +
+          TextScanner::shown(whole.empty() ? first : whole) + "'");
     }
     if (in_.peek() == 'B') in_.fail("a binary OFF file; save it as text, or as .ply");
     if (in_.atLineEnd() || in_.peek() == '#') {
       if (!in_.nextFilledLine()) in_.fail("the file is truncated: it ends before the counts");
     }
+  }
+
+  static std::string upperCase(std::string text) {
+    for (char& c : text) {
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    }
+    return text;
   }
 
   std::uint64_t readCount(const char* what) {
@@ -79,10 +116,14 @@ class OffReader {
       in_.fail(std::string("the file is truncated: a ") + what + " is missing");
   }
 
-  /// The numbers up to the line's end or a comment.
+  /// The numbers up to the line's end or a comment; NaN for a word that is none ("-1.#IND").
   void readNumbers() {
     numbers_.clear();
-    while (!in_.atLineEnd() && in_.peek() != '#') numbers_.push_back(in_.number("a number"));
+    while (!in_.atLineEnd() && in_.peek() != '#') {
+      const std::optional<double> value = in_.tryNumber();
+      numbers_.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+      if (!value) in_.word();
+    }
   }
 
   void readVertex() {
@@ -95,22 +136,38 @@ class OffReader {
     mesh_.positions.push_back(p);
     if (!hasUvs_ && !hasColors_) return;  // and whatever follows has no meaning here
     readNumbers();
-    // Normal, color, texture coordinates: in this order.
-    std::size_t begin = hasNormals_ ? 3 : 0, end = numbers_.size();
+    // Normal, color, texture coordinates: in this order, or with the color before the normal.
+    std::size_t end = numbers_.size();
     if (hasUvs_) {
-      if (end < begin + 2) in_.fail("a vertex's texture coordinates are missing");
+      if (end < 2) in_.fail("a vertex's texture coordinates are missing");
       end -= 2;
-      if (!(std::abs(numbers_[end]) < 1e15 && std::abs(numbers_[end + 1]) < 1e15)) {
-        in_.fail("a texture coordinate is NaN or too large");
+      Vec2f uv{static_cast<float>(numbers_[end]), static_cast<float>(numbers_[end + 1])};
+      if (!(std::abs(uv.x) < 1e15f && std::abs(uv.y) < 1e15f)) {
+        source_.warn("texture coordinates that are NaN or too large are taken as 0");
+        uv = {};
       }
-      vertexUvs_.push_back(
-          {static_cast<float>(numbers_[end]), static_cast<float>(numbers_[end + 1])});
+      vertexUvs_.push_back(uv);
     }
-    if (hasColors_) {
-      if (end != begin + 3 && end != begin + 4)
-        in_.fail("a vertex's color should have three or four numbers");
-      colors_.push_back({numbers_[begin], numbers_[begin + 1], numbers_[begin + 2],
-                         end == begin + 4 ? numbers_[begin + 3] : -1});
+    if (!hasColors_) return;
+    const std::size_t normal = hasNormals_ ? 3 : 0;
+    if (end != normal + 3 && end != normal + 4)
+      in_.fail("a vertex's color should have three or four numbers");
+    if (hasNormals_) order_.add(numbers_, end);
+    // What the color is shows only when all vertices have been read.
+    std::array<double, 7>& row = rows_.emplace_back();
+    row.fill(-1);
+    std::copy_n(numbers_.begin(), end, row.begin());
+    rowNumbers_.push_back(static_cast<std::uint8_t>(end));
+  }
+
+  /// Takes the colors out of the vertices' rows.
+  void finishColors() {
+    const std::size_t begin = hasNormals_ && !order_.colorComesFirst() ? 3 : 0;
+    for (std::size_t v = 0; v < rows_.size(); ++v) {
+      const auto& row = rows_[v];
+      const bool hasAlpha = rowNumbers_[v] == (hasNormals_ ? 7 : 4);
+      colors_.push_back(
+          {row[begin], row[begin + 1], row[begin + 2], hasAlpha ? row[begin + 3] : -1});
       checkColor(colors_.back());
     }
   }
@@ -138,7 +195,10 @@ class OffReader {
       points_.push_back(mesh_.positions[corners_.back()]);
     }
     readNumbers();
-    if (count < 3) return;  // a point or an edge
+    if (count < 3) {
+      source_.warn("faces with fewer than three corners are left out");
+      return;
+    }
     if (!triangulate(points_, pieces_)) {
       in_.fail("a concave face has " + std::to_string(count) + " corners; at most " +
                std::to_string(kMostCorners) + " can be cut into triangles");
@@ -176,6 +236,7 @@ class OffReader {
   }
 
   void finish() {
+    finishColors();
     const double vertexScale = scaleOf(colors_);
     for (const auto& color : colors_)
       mesh_.colors.push_back(fromRgba8(toBytes(color, vertexScale)));
@@ -196,6 +257,9 @@ class OffReader {
   const MeshSource& source_;
   TriangleMesh mesh_;
   bool hasUvs_ = false, hasColors_ = false, hasNormals_ = false;
+  NormalOrder order_;
+  std::vector<std::array<double, 7>> rows_;  // of vertices with colors: what follows the position
+  std::vector<std::uint8_t> rowNumbers_;     // how many numbers each has
   std::vector<std::array<double, 4>> colors_, faceColors_;
   std::vector<Vec2f> vertexUvs_;
   std::vector<double> numbers_;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "core/text_scanner.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/polygon.h"
@@ -48,6 +49,7 @@ struct Header {
   Encoding encoding = Encoding::Ascii;
   std::vector<Element> elements;
   std::map<std::size_t, std::string> materialNames;
+  std::vector<std::string> textureFiles;  ///< as MeshLab and scanners name them
 };
 
 Type typeOf(std::string_view word, TextScanner& in) {
@@ -106,8 +108,11 @@ Header readHeader(TextScanner& in) {
       if (property.name.empty()) in.fail("a property has no name");
       header.elements.back().properties.push_back(std::move(property));
     } else if (key == "comment") {
+      const std::string_view kind = in.word();
       // "comment material 3 NAME": how `formatPly` keeps the names of materials.
-      if (in.word() == "material" && in.peek() >= '0' && in.peek() <= '9') {
+      if (lowerCase(kind) == "texturefile") {
+        header.textureFiles.emplace_back(in.rest());
+      } else if (kind == "material" && in.peek() >= '0' && in.peek() <= '9') {
         const std::int64_t index = in.integerPrefix("a material's index");
         if (index >= 0) header.materialNames[static_cast<std::size_t>(index)] = in.rest();
       }
@@ -130,6 +135,8 @@ class Body {
   void begin(const Element& element) {
     element_ = &element;
     scalars_.assign(element.properties.size(), 0);
+    words_.assign(element.properties.size(), {});
+    hasWords_ = false;
     lists_.resize(element.properties.size());
     std::uint64_t least = 0;
     for (const Property& p : element.properties) {
@@ -154,7 +161,13 @@ class Body {
     }
   }
 
-  double scalar(int property) const { return scalars_[property]; }
+  double scalar(int property) const {
+    if (hasWords_ && !words_[property].empty()) {
+      fail(element_->properties[property].name + " should be a number, not '" +
+           TextScanner::shown(words_[property]) + "'");
+    }
+    return scalars_[property];
+  }
   const std::vector<double>& list(int property) const { return lists_[property]; }
 
   [[noreturn]] void fail(const std::string& message) const {
@@ -173,10 +186,20 @@ class Body {
       if (!in_.nextLine())
         fail("the file is truncated: a '" + TextScanner::shown(element_->name) + "' is missing");
     } while (in_.atLineEnd());
+    if (hasWords_) std::fill(words_.begin(), words_.end(), std::string_view());
+    hasWords_ = false;
     for (std::size_t i = 0; i < element_->properties.size(); ++i) {
       const Property& p = element_->properties[i];
       if (!p.isList) {
-        scalars_[i] = in_.number(p.name.c_str());
+        if (const auto value = in_.tryNumber()) {
+          scalars_[i] = *value;
+        } else if (in_.atLineEnd()) {
+          in_.number(p.name.c_str());
+        } else {
+          // Not-a-numbers have many spellings ("-1.#IND"); they matter only where they are used.
+          words_[i] = in_.word();
+          hasWords_ = true;
+        }
         continue;
       }
       const std::int64_t count = in_.integer("a list's count");
@@ -250,36 +273,72 @@ class Body {
   bool swap_ = false;
   const Element* element_ = nullptr;
   std::vector<double> scalars_;
+  std::vector<std::string_view> words_;  ///< of the row: what is no number, where `hasWords_`
+  bool hasWords_ = false;
   std::vector<std::vector<double>> lists_;
 };
 
-/// The properties that hold a color, each -1 where it is missing.
-struct ColorProperties {
-  std::array<int, 4> index{-1, -1, -1, -1};
-  std::array<double, 4> toByte{};
+/// The colors of an element's rows. Numbers of one byte count to 255. Others count to 1, 255 or
+/// 65535, whatever their type: the largest one in the whole file decides; alpha by itself.
+class Colors {
+ public:
+  Colors() = default;
+  explicit Colors(const Element& e)
+      : index_{e.find({"red", "r", "diffuse_red"}), e.find({"green", "g", "diffuse_green"}),
+               e.find({"blue", "b", "diffuse_blue"}), e.find({"alpha", "a"})} {
+    for (int c = 0; c < 4; ++c) {
+      if (index_[c] < 0) continue;
+      const Type type = e.properties[index_[c]].type;
+      isReal_[c] = type >= Type::Float;
+      isShort_[c] = type == Type::Uint16 || type == Type::Int16;
+    }
+  }
+  bool present() const { return index_[0] >= 0 && index_[1] >= 0 && index_[2] >= 0; }
+  bool empty() const { return colors_.empty(); }
+  std::size_t count() const { return colors_.size(); }
 
-  explicit ColorProperties(const Element& e)
-      : index{e.find({"red", "r", "diffuse_red"}), e.find({"green", "g", "diffuse_green"}),
-              e.find({"blue", "b", "diffuse_blue"}), e.find({"alpha", "a"})} {
+  /// Adds the color of the body's row, `times` times.
+  void add(const Body& body, std::size_t times = 1) {
+    std::array<float, 4> color{-1, -1, -1, -1};
     for (int c = 0; c < 4; ++c) {
-      if (index[c] < 0) continue;
-      const Type type = e.properties[index[c]].type;
-      toByte[c] = type >= Type::Float                           ? 255.0
-                  : type == Type::Uint16 || type == Type::Int16 ? 1 / 257.0
-                                                                : 1.0;
+      if (index_[c] < 0) continue;
+      const double value = body.scalar(index_[c]);
+      if (!(value >= -0.5 && value < 65535.5)) body.fail("a color is out of range");
+      color[c] = static_cast<float>(std::max(0.0, value));
+      most_[c] = std::max(most_[c], value);
     }
+    colors_.insert(colors_.end(), times, color);
   }
-  bool present() const { return index[0] >= 0 && index[1] >= 0 && index[2] >= 0; }
-  std::array<std::uint8_t, 4> read(const Body& body) const {
-    std::array<std::uint8_t, 4> color{255, 255, 255, 255};
-    for (int c = 0; c < 4; ++c) {
-      if (index[c] < 0) continue;
-      const double value = body.scalar(index[c]) * toByte[c];
-      if (!(value >= -0.5 && value < 255.5)) body.fail("a color is out of range");
-      color[c] = static_cast<std::uint8_t>(std::lround(value));
+
+  /// The colors as bytes, sRGB and opacity.
+  std::vector<std::array<std::uint8_t, 4>> bytes(const Body& body) const {
+    std::array<double, 4> scale{};
+    const double mostRgb = std::max({most_[0], most_[1], most_[2]});
+    for (int c = 0; c < 4; ++c) scale[c] = scaleOf(c, c < 3 ? mostRgb : most_[3]);
+    std::vector<std::array<std::uint8_t, 4>> result;
+    result.reserve(colors_.size());
+    for (const auto& color : colors_) {
+      auto& bytes = result.emplace_back();
+      for (int c = 0; c < 4; ++c) {
+        const double value = color[c] < 0 ? 255 : static_cast<double>(color[c]) * scale[c];
+        if (!isReal_[c] && !(value < 255.5)) body.fail("a color is out of range");
+        bytes[c] = static_cast<std::uint8_t>(std::lround(std::min(value, 255.0)));
+      }
     }
-    return color;
+    return result;
   }
+
+ private:
+  /// What makes a component one of 0..255.
+  double scaleOf(int c, double most) const {
+    if (isReal_[c] && most <= 2) return 255;
+    return (isReal_[c] || isShort_[c]) && most > 255 ? 1 / 257.0 : 1;
+  }
+
+  std::array<int, 4> index_{-1, -1, -1, -1};
+  std::array<bool, 4> isReal_{}, isShort_{};
+  std::array<double, 4> most_{};
+  std::vector<std::array<float, 4>> colors_;
 };
 
 class PlyReader {
@@ -288,22 +347,21 @@ class PlyReader {
       : in_(bytes, source.name), source_(source) {}
 
   TriangleMesh read() {
-    const Header header = readHeader(in_);
-    Body body(in_, header.encoding, source_.progress);
-    bool hasVertices = false;
-    for (const Element& element : header.elements) {
+    header_ = readHeader(in_);
+    Body body(in_, header_.encoding, source_.progress);
+    for (const Element& element : header_.elements) {
       if (element.properties.empty()) continue;
       body.begin(element);
       if (element.name == "vertex") {
-        if (hasVertices) body.fail("the file has two 'vertex' elements");
-        hasVertices = true;
+        if (hasVertices_) body.fail("the file has two 'vertex' elements");
         readVertices(element, body);
+        hasVertices_ = true;
       } else if (element.name == "face") {
         readFaces(element, body);
       } else if (element.name == "tristrips") {
         readStrips(element, body);
       } else if (element.name == "material" && element.find({"linear_red"}) >= 0) {
-        readMaterials(element, header, body);
+        readMaterials(element, header_, body);
       } else {
         for (std::uint64_t i = 0; i < element.count; ++i) body.readRow();
       }
@@ -317,7 +375,7 @@ class PlyReader {
     const int x = element.find({"x"}), y = element.find({"y"}), z = element.find({"z"});
     const int u = element.find({"s", "u", "texture_u", "texture_s"});
     const int v = element.find({"t", "v", "texture_v", "texture_t"});
-    const ColorProperties color(element);
+    vertexColors_ = Colors(element);
     if (x < 0 || y < 0 || z < 0) body.fail("the 'vertex' element has no x, y and z");
     mesh_.positions.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -327,14 +385,16 @@ class PlyReader {
         body.fail("vertex " + std::to_string(i) + " " + problem);
       }
       mesh_.positions.push_back(p);
-      if (color.present()) mesh_.colors.push_back(fromRgba8(color.read(body)));
-      if (u >= 0 && v >= 0) vertexUvs_.push_back(uv(body.scalar(u), body.scalar(v), body));
+      if (vertexColors_.present()) vertexColors_.add(body);
+      if (u >= 0 && v >= 0) vertexUvs_.push_back(uv(body.scalar(u), body.scalar(v)));
     }
   }
 
-  static Vec2f uv(double u, double v, const Body& body) {
-    if (!(std::abs(u) < 1e15 && std::abs(v) < 1e15))
-      body.fail("a texture coordinate is NaN or too large");
+  Vec2f uv(double u, double v) const {
+    if (!(std::abs(u) < 1e15 && std::abs(v) < 1e15)) {
+      source_.warn("texture coordinates that are NaN or too large are taken as 0");
+      return {};
+    }
     return {static_cast<float>(u), static_cast<float>(v)};
   }
 
@@ -348,41 +408,68 @@ class PlyReader {
     return static_cast<std::uint32_t>(value);
   }
 
+  /// A face as the file has it: its vertices, and what else it says.
+  struct Face {
+    std::vector<double> corners, uvs;
+    double material = 0, texture = 0;
+  };
+
   void readFaces(const Element& element, Body& body) {
     const int indices = element.find({"vertex_indices", "vertex_index"}, true);
     const int texcoord = element.find({"texcoord"}, true);
     const int material = element.find({"material_index"});
-    const ColorProperties color(element);
+    const int texture = element.find({"texnumber", "texture_index"});
+    faceColors_ = Colors(element);
     if (indices < 0) body.fail("the 'face' element has no vertex_indices");
-    std::vector<Vec3d> points;
-    std::vector<std::array<std::uint32_t, 3>> pieces;
+    hasFaceUvs_ = texcoord >= 0;
+    hasMaterialIndices_ = material >= 0;
+    hasTextureIndices_ = texture >= 0;
+    Face face;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       body.readRow();
-      const std::vector<double>& corners = body.list(indices);
-      if (corners.size() < 3)
-        body.fail("face " + std::to_string(i) + " has fewer than three corners");
-      points.clear();
-      pieces.clear();
-      for (const double c : corners) points.push_back(mesh_.positions[vertexIndex(c, body)]);
-      if (!triangulate(points, pieces)) {
-        body.fail("face " + std::to_string(i) + " is concave and has " +
-                  std::to_string(corners.size()) + " corners; at most " +
-                  std::to_string(kMostCorners) + " can be cut into triangles");
-      }
-      const bool hasUvs = texcoord >= 0 && body.list(texcoord).size() == 2 * corners.size();
-      const auto cornerUv = [&](std::uint32_t c) {
-        if (!hasUvs) return Vec2f{};
-        return uv(body.list(texcoord)[2 * c], body.list(texcoord)[2 * c + 1], body);
-      };
-      for (const auto& [a, b, c] : pieces) {
-        mesh_.triangles.push_back({static_cast<std::uint32_t>(corners[a]),
-                                   static_cast<std::uint32_t>(corners[b]),
-                                   static_cast<std::uint32_t>(corners[c])});
-        if (texcoord >= 0) mesh_.uvs.push_back({cornerUv(a), cornerUv(b), cornerUv(c)});
-        if (color.present()) faceColors_.push_back(color.read(body));
-        if (material >= 0) materialIndices_.push_back(body.scalar(material));
+      face.corners = body.list(indices);
+      if (texcoord >= 0) face.uvs = body.list(texcoord);
+      if (material >= 0) face.material = body.scalar(material);
+      if (texture >= 0) face.texture = body.scalar(texture);
+      if (hasVertices_) {
+        addFace(face, body, faceColors_.present() ? &body : nullptr);
+      } else {
+        // The vertices come later.
+        if (faceColors_.present()) faceColors_.add(body);
+        pendingFaces_.push_back(face);
       }
     }
+  }
+
+  /// Adds a face, and its color for each of its triangles where `colored`, whose row has it.
+  void addFace(const Face& face, const Body& body, const Body* colored) {
+    const std::vector<double>& corners = face.corners;
+    if (!pendingFaces_.empty()) triangleCounts_.push_back(0);
+    if (corners.size() < 3) {
+      ++shortFaces_;
+      return;
+    }
+    points_.clear();
+    pieces_.clear();
+    for (const double c : corners) points_.push_back(mesh_.positions[vertexIndex(c, body)]);
+    if (!triangulate(points_, pieces_)) {
+      body.fail("a concave face has " + std::to_string(corners.size()) + " corners; at most " +
+                std::to_string(kMostCorners) + " can be cut into triangles");
+    }
+    const bool hasUvs = hasFaceUvs_ && face.uvs.size() == 2 * corners.size();
+    const auto cornerUv = [&](std::uint32_t c) {
+      return hasUvs ? uv(face.uvs[2 * c], face.uvs[2 * c + 1]) : Vec2f{};
+    };
+    for (const auto& [a, b, c] : pieces_) {
+      mesh_.triangles.push_back({static_cast<std::uint32_t>(corners[a]),
+                                 static_cast<std::uint32_t>(corners[b]),
+                                 static_cast<std::uint32_t>(corners[c])});
+      if (hasFaceUvs_) mesh_.uvs.push_back({cornerUv(a), cornerUv(b), cornerUv(c)});
+      if (hasMaterialIndices_) materialIndices_.push_back(face.material);
+      if (hasTextureIndices_) textureIndices_.push_back(face.texture);
+    }
+    if (!pendingFaces_.empty()) triangleCounts_.back() = static_cast<std::uint32_t>(pieces_.size());
+    if (colored) faceColors_.add(*colored, pieces_.size());
   }
 
   /// Triangle strips, as the Stanford scans have them: -1 ends a strip.
@@ -436,7 +523,25 @@ class PlyReader {
     }
   }
 
+  /// The colors of triangles, one for each.
+  std::vector<std::array<std::uint8_t, 4>> triangleColors(const Body& body) const {
+    const auto colors = faceColors_.bytes(body);
+    if (pendingFaces_.empty()) return colors;
+    // Of faces that came before their vertices there is a color for each face.
+    std::vector<std::array<std::uint8_t, 4>> spread;
+    for (std::size_t f = 0; f < colors.size(); ++f) {
+      spread.insert(spread.end(), triangleCounts_[f], colors[f]);
+    }
+    return spread;
+  }
+
   void finish(const Body& body) {
+    for (const Face& face : pendingFaces_) addFace(face, body, nullptr);
+    if (shortFaces_ > 0) {
+      source_.warn("leaving out " + counted(shortFaces_, "face") +
+                   " with fewer than three corners");
+    }
+    for (const auto& color : vertexColors_.bytes(body)) mesh_.colors.push_back(fromRgba8(color));
     const std::size_t triangles = mesh_.triangles.size();
     if (mesh_.uvs.size() != triangles) mesh_.uvs.clear();
     if (mesh_.uvs.empty() && !vertexUvs_.empty()) {
@@ -448,23 +553,77 @@ class PlyReader {
       mesh_.materials = std::move(fileMaterials_);
       for (const double m : materialIndices_) {
         if (!(m >= 0 && m < static_cast<double>(mesh_.materials.size())) || m != std::floor(m)) {
-          body.fail("a face names a material that does not exist: there are " +
+          body.fail("a face names a material that does not exist: the file has " +
                     std::to_string(mesh_.materials.size()));
         }
         mesh_.triangleMaterials.push_back(static_cast<std::uint32_t>(m));
       }
-    } else if (!faceColors_.empty() && faceColors_.size() == triangles) {
-      setFaceColors(mesh_, faceColors_);
+    } else if (loadTextures()) {
+      if (!faceColors_.empty()) source_.warn("face colors are left out where a texture is");
+    } else if (!faceColors_.empty()) {
+      const auto colors = triangleColors(body);
+      if (colors.size() == triangles) setFaceColors(mesh_, colors);
     }
+  }
+
+  /// A material for each picture that the header names; false where there is none to show.
+  bool loadTextures() {
+    if (header_.textureFiles.empty()) return false;
+    if (!mesh_.hasUvs()) {
+      source_.warn("a texture is named, but no texture coordinates; it is left out");
+      return false;
+    }
+    bool any = false;
+    for (const std::string& file : header_.textureFiles) {
+      const std::string shown = TextScanner::shown(file);
+      Material material{.name = file.substr(file.find_last_of("/\\") + 1),
+                        .baseColor = {1, 1, 1, 1}};
+      std::optional<std::string> bytes = source_.siblingBytes(file);
+      const std::string mimeType = bytes ? imageMimeType(*bytes) : "";
+      if (mimeType.empty()) {
+        source_.warn("the texture " + shown +
+                     (bytes ? " is neither PNG nor JPEG" : " is not found") + " and is left out");
+        material.baseColor = Material{}.baseColor;
+      } else {
+        any = true;
+        material.baseColorTexture = static_cast<std::uint32_t>(mesh_.textures.size());
+        std::string name = material.name;
+        const auto isTaken = [&](const std::string& n) {
+          return std::any_of(mesh_.textures.begin(), mesh_.textures.end(),
+                             [&](const Texture& t) { return t.name == n; });
+        };
+        for (int n = 2; isTaken(name); ++n) name = std::to_string(n) + "_" + material.name;
+        mesh_.textures.push_back({name, mimeType, std::move(*bytes)});
+      }
+      mesh_.materials.push_back(std::move(material));
+    }
+    if (!any) {
+      mesh_.materials.clear();
+      return false;
+    }
+    textureIndices_.resize(mesh_.triangles.size(), 0);
+    for (const double t : textureIndices_) {
+      const bool exists = t >= 0 && t < static_cast<double>(mesh_.materials.size());
+      mesh_.triangleMaterials.push_back(exists ? static_cast<std::uint32_t>(t) : 0);
+    }
+    return true;
   }
 
   TextScanner in_;
   const MeshSource& source_;
+  Header header_;
   TriangleMesh mesh_;
+  bool hasVertices_ = false;
+  Colors vertexColors_, faceColors_;
   std::vector<Vec2f> vertexUvs_;
-  std::vector<std::array<std::uint8_t, 4>> faceColors_;
-  std::vector<double> materialIndices_;
+  std::vector<Face> pendingFaces_;  // that came before the vertices
+  std::vector<std::uint32_t> triangleCounts_;
+  std::vector<double> materialIndices_, textureIndices_;
   std::vector<Material> fileMaterials_;
+  bool hasFaceUvs_ = false, hasMaterialIndices_ = false, hasTextureIndices_ = false;
+  std::size_t shortFaces_ = 0;
+  std::vector<Vec3d> points_;
+  std::vector<std::array<std::uint32_t, 3>> pieces_;
 };
 
 template <class T>

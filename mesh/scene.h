@@ -47,7 +47,7 @@ Scene readScene(const std::filesystem::path& path, const SceneOptions& options =
                 const Progress& progress = {});
 
 /// The same from the bytes of a scene file; `name` is what errors call it, and names the scene.
-Scene readScene(std::string_view bytes, const std::string& name, const SceneOptions& options = {},
+Scene readScene(std::string_view bytes, const std::string& name, const SceneOptions& options,
                 const Progress& progress = {});
 
 /// Whether a scene file's kind is one that is made of model pieces. False where it cannot be read.

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "core/text_scanner.h"
 #include "mesh/mesh_formats.h"
 
@@ -57,9 +58,59 @@ std::uint32_t littleUint(const char* bytes) {
   return value;
 }
 
+/// Skips a solid's name, which lasts to the line's end or to the first facet on it.
+void skipName(TextScanner& in) {
+  while (!in.atLineEnd() && lowerCase(in.peekWord()) != "facet") in.word();
+}
+
 void appendLittle(std::string& out, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) out += static_cast<char>(value >> (8 * i) & 255);
 }
+
+/// The colors that some programs put into the two bytes behind each triangle, 5 bits a channel:
+/// Magics, whose header says "COLOR=" and a color for triangles without one (highest bit set), red
+/// in the lowest bits; and VisCAM and SolidView, blue in the lowest bits of those with the highest
+/// bit set. Both count sRGB, as their pictures do.
+class FaceColors {
+ public:
+  explicit FaceColors(std::string_view header) {
+    const std::size_t at = header.find("COLOR=");
+    if (at == std::string_view::npos || at + 10 > header.size()) return;
+    magics_ = true;
+    for (std::size_t c = 0; c < 4; ++c) whole_[c] = static_cast<std::uint8_t>(header[at + 6 + c]);
+  }
+
+  void add(std::uint32_t bits) {
+    bits_.push_back(static_cast<std::uint16_t>(bits));
+    any_ = any_ || (magics_ ? bits != 0 : (bits & kFlag) != 0);
+  }
+
+  void apply(TriangleMesh& mesh) const {
+    // Zeros everywhere in a Magics file come from programs that know only the header's color.
+    if (!any_ && !magics_) return;
+    std::vector<std::array<std::uint8_t, 4>> colors;
+    colors.reserve(bits_.size());
+    for (const std::uint32_t bits : bits_) colors.push_back(any_ ? colorOf(bits) : whole_);
+    setFaceColors(mesh, colors);
+  }
+
+ private:
+  static constexpr std::uint32_t kFlag = 0x8000;
+
+  std::array<std::uint8_t, 4> colorOf(std::uint32_t bits) const {
+    const bool own = ((bits & kFlag) != 0) != magics_;
+    if (!own) return whole_;
+    const auto channel = [&](int shift) {
+      return static_cast<std::uint8_t>(((bits >> shift & 31) * 255 + 15) / 31);
+    };
+    const std::array<std::uint8_t, 3> c{channel(0), channel(5), channel(10)};
+    return {magics_ ? c[0] : c[2], c[1], magics_ ? c[2] : c[0], 255};
+  }
+
+  bool magics_ = false, any_ = false;
+  std::array<std::uint8_t, 4> whole_ = toRgba8(Material{}.baseColor);
+  std::vector<std::uint16_t> bits_;
+};
 
 TriangleMesh parseBinary(std::string_view bytes, const MeshSource& source) {
   const std::string& name = source.name;
@@ -73,9 +124,10 @@ TriangleMesh parseBinary(std::string_view bytes, const MeshSource& source) {
   TriangleMesh mesh;
   Joiner joiner(mesh);
   joiner.reserve(count);
+  FaceColors colors(bytes.substr(0, 80));
   for (std::uint64_t t = 0; t < count; ++t) {
     reportNowAndThen(source.progress, "reading", t, count);
-    // A normal, which follows from the corners, the corners, and two bytes without a meaning.
+    // A normal, which follows from the corners, the corners, and two bytes for a color.
     const char* at = bytes.data() + kHeaderBytes + t * kTriangleBytes + 12;
     std::array<std::uint32_t, 3> triangle{};
     for (std::uint32_t& v : triangle) {
@@ -87,25 +139,37 @@ TriangleMesh parseBinary(std::string_view bytes, const MeshSource& source) {
       v = joiner.add(p);
     }
     mesh.triangles.push_back(triangle);
+    colors.add(std::uint32_t{static_cast<unsigned char>(at[0])} |
+               std::uint32_t{static_cast<unsigned char>(at[1])} << 8);
   }
+  colors.apply(mesh);
   return mesh;
 }
 
+/// Reads words rather than lines: some writers put a facet on one line.
 TriangleMesh parseText(std::string_view bytes, const MeshSource& source) {
   TriangleMesh mesh;
   Joiner joiner(mesh);
   TextScanner in(bytes, source.name);
-  in.nextLine();
   std::array<std::uint32_t, 3> triangle{};
   int corners = -1;  // in the facet so far; -1 outside of facets
   bool ended = false;
-  for (std::size_t line = 0; in.nextLine(); ++line) {
-    if (line % 16384 == 0) source.progress.report("reading", in.fraction());
-    const std::string_view key = in.word();
+  std::size_t words = 0;
+  in.nextLine();
+  for (;;) {
+    if (words++ % 65536 == 0) source.progress.report("reading", in.fraction());
+    const std::string_view written = in.wordAhead();
+    if (written.empty()) break;
+    const std::string lower = lowerCase(written);
+    const std::string_view key = lower;
     if (key == "facet") {
       if (corners >= 0) in.fail("a facet begins inside a facet");
       corners = 0;
       ended = false;
+      // "normal" and three numbers, which follow from the corners and are often wrong.
+      if (lowerCase(in.peekWord()) == "normal") {
+        for (int i = 0; i < 4; ++i) in.word();
+      }
     } else if (key == "vertex") {
       if (corners < 0) in.fail("a vertex is outside of a facet");
       if (corners == 3) in.fail("a facet has more than three vertices");
@@ -120,27 +184,42 @@ TriangleMesh parseText(std::string_view bytes, const MeshSource& source) {
     } else if (key == "endsolid") {
       if (corners >= 0) in.fail("the solid ends inside a facet");
       ended = true;
+      skipName(in);
     } else if (key == "solid") {
       ended = false;
-    } else if (key != "outer" && key != "endloop" && !key.empty()) {
-      in.fail("'" + TextScanner::shown(key) + "' is not a word of an STL file");
+      skipName(in);
+    } else if (key != "outer" && key != "loop" && key != "endloop") {
+      in.fail("'" + TextScanner::shown(written) + "' is not a word of an STL file");
     }
   }
   if (!ended) in.fail("the file is truncated: it ends before 'endsolid'");
   return mesh;
 }
 
+/// What a file is: its first word says it only for text, and not even then.
+bool isText(std::string_view bytes) {
+  std::string decoded;
+  std::string_view text = asUtf8(bytes.substr(0, 4096), decoded);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  const std::string begin = lowerCase(text.substr(0, 1024));
+  if (!begin.starts_with("solid") && !begin.starts_with("facet")) return false;
+  if (bytes.size() < kHeaderBytes) return true;
+  const std::uint64_t needed =
+      kHeaderBytes + std::uint64_t{littleUint(bytes.data() + 80)} * kTriangleBytes;
+  if (bytes.size() == needed) return false;
+  // Many binary files begin with "solid" too. Text goes on with words and holds no zero bytes,
+  // which a binary file's normals, flags and count are full of.
+  const bool hasWords =
+      begin.find("facet") != std::string::npos || begin.find("endsolid") != std::string::npos;
+  const bool hasZeros = text.substr(0, 1024).find('\0') != std::string_view::npos;
+  return bytes.size() < needed ? hasWords || !hasZeros : hasWords && !hasZeros;
+}
+
 }  // namespace
 
 TriangleMesh parseStl(std::string_view bytes, const MeshSource& source) {
-  // Many binary files begin with "solid" too; their size gives them away.
-  const bool solid = bytes.starts_with("solid");
-  if (bytes.size() >= kHeaderBytes) {
-    const std::uint64_t needed =
-        kHeaderBytes + std::uint64_t{littleUint(bytes.data() + 80)} * kTriangleBytes;
-    if (!solid || bytes.size() == needed) return parseBinary(bytes, source);
-  }
-  if (solid) return parseText(bytes, source);
+  if (isText(bytes)) return parseText(bytes, source);
+  if (bytes.size() >= kHeaderBytes) return parseBinary(bytes, source);
   throw InputError(source.name +
                    ": not an STL file: it should begin with 'solid' or have 84 bytes or more");
 }

@@ -29,6 +29,8 @@ constexpr std::int32_t kLongestSide = 256;
 /// Groups may hold groups; a file that puts one into itself must not keep us forever.
 constexpr int kDeepest = 64;
 constexpr int kMostShapes = 1 << 16;
+/// A grid of more cells than this is refused where it has more than `kSparse` for each voxel.
+constexpr double kManyCells = 1 << 26, kSparse = 4096;
 
 /// Little-endian numbers and strings, one after the other; every step beyond the end is an error.
 class Bytes {
@@ -335,6 +337,14 @@ class VoxReader {
       }
       size[i] = static_cast<int>(length);
       cells *= static_cast<double>(length);
+    }
+    std::size_t voxels = 0;
+    for (const Shown& part : parts) voxels += part.model->voxels.size() / 4;
+    // A grid holds the empty cells too; where they are thousands to a voxel, models lie far apart.
+    if (cells > kManyCells && cells > kSparse * static_cast<double>(voxels)) {
+      file_.fail("its models lie so far apart that " + std::to_string(size.x) + " x " +
+                 std::to_string(size.y) + " x " + std::to_string(size.z) + " cells hold only " +
+                 std::to_string(voxels) + " voxels; move them closer together");
     }
     requireMemory(3 * cells, name_ + ": its cells", "put its models closer together");
 

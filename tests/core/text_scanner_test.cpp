@@ -109,13 +109,17 @@ TEST(TextScanner, ADecimalCommaIsUnderstoodAndAListIsNot) {
   EXPECT_THROW(in.number("n"), InputError);
 }
 
-TEST(TextScanner, WordsThatAreNoNumbersCanBeReplaced) {
+TEST(TextScanner, WordsThatAreNoNumbersStayToBeTaken) {
   TextScanner in("-1.#IND 1e999 7", "f");
   in.nextLine();
-  EXPECT_EQ(in.numberOr(5, "n"), 5);
-  EXPECT_EQ(in.numberOr(6, "n"), 6);
-  EXPECT_EQ(in.numberOr(0, "n"), 7);
-  EXPECT_THROW(in.numberOr(0, "n"), InputError) << "the line has ended";
+  EXPECT_EQ(in.tryNumber(), std::nullopt);
+  EXPECT_EQ(in.word(), "-1.#IND");
+  EXPECT_EQ(in.tryNumber(), std::nullopt);
+  EXPECT_EQ(in.peekWord(), "1e999");
+  EXPECT_THROW(in.number("n"), InputError);
+  in.word();
+  EXPECT_EQ(in.tryNumber(), 7);
+  EXPECT_EQ(in.tryNumber(), std::nullopt) << "the line has ended";
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 
 namespace {
 void read(std::string_view bytes) {
-  exemplar::validate(exemplar::parseOff(bytes, {.name = "f.off"}), "f.off");
+  exemplar::Warnings warnings;
+  exemplar::validate(exemplar::parseOff(bytes, {.name = "f.off", .warnings = &warnings}), "f.off");
 }
 }  // namespace
 

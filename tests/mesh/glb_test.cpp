@@ -235,7 +235,7 @@ TEST(Glb, RefusesWhatDoesNotHoldTogether) {
               }),
               HasSubstr("componentType should be"));
   EXPECT_THAT(with([](F f) {
-                f.positions = R"({"bufferView":0,"componentType":5126,"count":3,"type":"MAT4"})";
+                f.positions = R"({"bufferView":0,"componentType":5126,"count":3,"type":"MAT2"})";
               }),
               HasSubstr("type should be"));
   EXPECT_THAT(with([](F f) {

@@ -96,7 +96,12 @@ TEST(MalformedFiles, EveryPrefixIsReadOrRefused) {
     for (std::size_t length = 0; length < sample.bytes.size(); ++length) {
       refused += !isRead(sample, std::string_view(sample.bytes).substr(0, length));
     }
-    EXPECT_GT(refused, 0) << sample.name;
+    // A material library costs at most its bad lines.
+    if (std::string_view(sample.name) == "mtl") {
+      EXPECT_EQ(refused, 0);
+    } else {
+      EXPECT_GT(refused, 0) << sample.name;
+    }
   }
 }
 
@@ -166,7 +171,11 @@ TEST(MalformedFiles, ThousandsOfDamagedFilesAreReadOrRefused) {
     }
     // Both happen, or the changes would be too mild or too wild to test anything.
     EXPECT_GT(read, kTrials / 200) << sample.name;
-    EXPECT_LT(read, kTrials) << sample.name;
+    if (std::string_view(sample.name) == "mtl") {
+      EXPECT_EQ(read, kTrials) << "bad lines are left out";
+    } else {
+      EXPECT_LT(read, kTrials) << sample.name;
+    }
   }
 }
 

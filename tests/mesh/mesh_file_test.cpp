@@ -368,7 +368,7 @@ TEST(MeshFile, MalformedTextNamesTheLine) {
     const char *ending, *bytes, *complaint;
   } cases[] = {
       {".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
-       "f.obj:4: vertex 4 does not exist: there are 3 so far"},
+       "f.obj:4: vertex 4 does not exist: the file has 3"},
       {".obj", "v 0 0 0\nf -1 -2 -1\n", "f.obj:2: vertex -2 does not exist"},
       {".obj", "v 0 0 0\nf 0 1 1\n", "f.obj:2: vertex 0 does not exist"},
       {".obj", "v 0 0\n", "f.obj:1: z is missing"},
@@ -378,8 +378,8 @@ TEST(MeshFile, MalformedTextNamesTheLine) {
       {".obj", "v 0 -inf 0\n", "f.obj:1: the vertex has a NaN or infinite coordinate"},
       {".obj", "v 0 1e400 0\n", "f.obj:1: y is too large"},
       {".obj", "v 0 0 1e16\n", "f.obj:1: the vertex has a coordinate of 1e15 or more"},
-      {".obj", "v 0 0 0\nf 1 1\n", "f.obj:2: a face needs three corners"},
-      {".obj", "v 0 0 0\nf 1/1 1 1\n", "f.obj:2: texture coordinate 1 does not exist: there are 0"},
+      {".obj", "v 0 0 0\nf 1 1\n", "f.obj: the mesh has no triangles"},
+      {".obj", "f 1 2 3\nv 0 0 0\n", "f.obj:1: vertex 2 does not exist: the file has 1"},
       {".obj", "v 0 0 0\nf 1,2,3\n", "f.obj:2: a face's corner should be"},
       {".obj", "v 0 0 0\nf 99999999999999999999 1 1\n", "f.obj:2: vertex should be a whole number"},
       {".obj", "v 0 0 0\nv 1 1 1\n", "f.obj: the mesh has no triangles"},

@@ -135,13 +135,13 @@ TEST(MeshBytes, AreReadAsTheFileIs) {
   }
   // Without a folder, what lies beside the file is not looked for, wherever the program runs.
   const std::string obj = readFile(folder / "m.obj");
-  const TriangleMesh alone = readMesh(obj, (folder / "m.obj").string());
+  const TriangleMesh alone = readMesh(obj, (folder / "m.obj").string(), {});
   EXPECT_EQ(alone.positions.size(), full.positions.size());
   EXPECT_TRUE(alone.textures.empty());
   ASSERT_EQ(alone.materials.size(), 2u);
   EXPECT_EQ(alone.materials[0].name, "red paint");
   EXPECT_EQ(alone.materials[0].roughness, Material{}.roughness);
-  EXPECT_THROW(readMesh(obj, "m.fbx"), InputError);
+  EXPECT_THROW(readMesh(obj, "m.fbx", {}), InputError);
 }
 
 }  // namespace

@@ -6,12 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-
 namespace exemplar {
 namespace {
-
-using testing::HasSubstr;
 
 TEST(Mtl, NumbersComeBackExactly) {
   std::vector<MtlMaterial> materials(2);
@@ -56,13 +52,19 @@ TEST(Mtl, ReadsOlderConventions) {
   EXPECT_EQ(material("Ns 0\nPr 0.25\n").roughness, 0.25f);
 }
 
-TEST(Mtl, NamesTheLineOfWhatIsWrong) {
-  try {
-    parseMtl("newmtl a\n\nKd 1 red 0\n", "f.mtl");
-    FAIL();
-  } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("f.mtl:3: the diffuse color should be a number, not 'red'"));
-  }
+TEST(Mtl, NamesTheLineOfWhatIsWrongAndGoesOn) {
+  Warnings warnings;
+  const auto read = parseMtl("newmtl a\n\nKd 1 red 0\nPr 0.25\n", "f.mtl", &warnings);
+  EXPECT_THAT(warnings, testing::ElementsAre("f.mtl:3: the diffuse color should be a number, not "
+                                             "'red'; the line is left out"));
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].material.baseColor, Material{}.baseColor);
+  EXPECT_EQ(read[0].material.roughness, 0.25f);
+}
+
+TEST(Mtl, ColorsMayCountTo255) {
+  const auto read = parseMtl("newmtl a\nKd 255 0 51\n", "f.mtl");
+  EXPECT_EQ(read[0].material.baseColor, (std::array<float, 4>{1, 0, 51 / 255.0f, 1}));
 }
 
 }  // namespace

@@ -25,7 +25,9 @@ using test::inputError;
 using test::TemporaryFolder;
 using test::withThreads;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -83,7 +85,7 @@ TEST(HeightMapFile, ReadsPgmsOfEveryKind) {
   EXPECT_EQ(text.heights, (std::vector<float>{1, 2, 3, 400, 500, 0}));
 }
 
-TEST(HeightMapFile, ReadsGreyPngsOfBothDepthsInTheirOwnSteps) {
+TEST(HeightMapFile, ReadsGrayPngsOfBothDepthsInTheirOwnSteps) {
   const TemporaryFolder folder;
   Image16 deep{3, 2, 1, {0, 1, 2, 500, 40000, 65535}};
   writePng(folder / "a.png", deep);
@@ -93,14 +95,14 @@ TEST(HeightMapFile, ReadsGreyPngsOfBothDepthsInTheirOwnSteps) {
   writePng(folder / "b.png", shallow);
   EXPECT_EQ(readHeightMap(folder / "b.png", {.cellSize = 1}).heights,
             (std::vector<float>{0, 1, 2, 50, 200, 255}));
-  // Grey stored as colour is grey; colour is not.
+  // Gray stored as color is gray; color is not.
   Image8 color{2, 2, 3, {1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4}};
   writePng(folder / "c.png", color);
   EXPECT_EQ(readHeightMap(folder / "c.png", {.cellSize = 1}).heights,
             (std::vector<float>{1, 2, 3, 4}));
   color.pixels[4] = 9;
   writePng(folder / "c.png", color);
-  EXPECT_THAT(inputError([&] { readHeightMap(folder / "c.png"); }), HasSubstr("grey"));
+  EXPECT_THAT(inputError([&] { readHeightMap(folder / "c.png"); }), HasSubstr("gray"));
 }
 
 TEST(HeightMapFile, ReadsEsriGrids) {
@@ -113,11 +115,11 @@ TEST(HeightMapFile, ReadsEsriGrids) {
   EXPECT_EQ(map.heights, (std::vector<float>{1.5f, -2, 300, 4, 5, 6}));
 }
 
-TEST(HeightMapFile, FillsCellsWithoutDataFromTheirNeighbours) {
+TEST(HeightMapFile, FillsCellsWithoutDataFromTheirNeighbors) {
   const HeightMap map = readBytes(
       "a.asc",
       "ncols 4\nnrows 3\ncellsize 1\nnodata_value -9999\n2 2 4 4\n2 -9999 -9999 4\n-9999 2 4 4\n");
-  EXPECT_FLOAT_EQ(map.at(1, 1), (2 + 2 + 4 + 2 + 2 + 4) / 6.0f);  // its neighbour is open as well
+  EXPECT_FLOAT_EQ(map.at(1, 1), (2 + 2 + 4 + 2 + 2 + 4) / 6.0f);  // its neighbor is open as well
   EXPECT_FLOAT_EQ(map.at(2, 1), (2 + 4 + 4 + 4 + 2 + 4 + 4) / 7.0f);
   // A cell deep within a hole is reached ring by ring.
   std::string text = "ncols 7\nnrows 7\ncellsize 1\nnodata_value nan\n";
@@ -150,7 +152,10 @@ TEST(HeightMapFile, ComesBackFromEveryFormat) {
       makeMap(9, 7, 2.5, [](double x, double y) { return std::round(10 * hills(x, y)); });
   for (const char* name : {"a.asc", "a.pgm", "a.png"}) {
     writeHeightMap(folder / name, map, {.heightScale = 0.25});
-    const HeightMap back = readHeightMap(folder / name, {.cellSize = 2.5, .heightScale = 0.25});
+    // An .asc holds world units already.
+    HeightMapFileOptions options{.cellSize = 2.5, .heightScale = 0.25};
+    if (std::string(name) == "a.asc") options.heightScale.reset();
+    const HeightMap back = readHeightMap(folder / name, options);
     EXPECT_EQ(back.width, 9);
     EXPECT_EQ(back.cellSize, 2.5);
     EXPECT_EQ(back.heights, map.heights) << name;
@@ -161,7 +166,9 @@ TEST(HeightMapFile, ComesBackFromEveryFormat) {
   writeHeightMap(folder / "b.asc", map);
   EXPECT_EQ(readHeightMap(folder / "b.asc").heights, map.heights);
   map.heights[2] = 1e9f;
-  writeHeightMap(folder / "b.png", map);
+  Warnings warnings;
+  writeHeightMap(folder / "b.png", map, {.heightScale = 1, .warnings = &warnings});
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("b.png: 1 of 63 heights are outside of 0 to")));
   const HeightMap clamped = readHeightMap(folder / "b.png");
   EXPECT_EQ(clamped.heights[1], 0);
   EXPECT_EQ(clamped.heights[2], 65535);
@@ -191,7 +198,7 @@ TEST(HeightMapFile, NamesTheFileAndLineOfWhatIsWrong) {
   EXPECT_THAT(error("a.asc", "ncols 2\nnrows 2\n1 2 3 4\n"), HasSubstr("cellsize is missing"));
   EXPECT_THAT(error("a.asc", "ncols 2\nnrows 2\ncellsize 0\n1 2 3 4\n"), HasSubstr("a.asc:3:"));
   EXPECT_THAT(error("a.asc", "ncols 2\nnrows 2\ndx 1\ndy 2\n1 2 3 4\n"), HasSubstr("square"));
-  EXPECT_THAT(error("a.asc", "ncols 2\nnrows 2\ncellsize 1\n1 2\n3 nan\n"), HasSubstr("a.asc:5:"));
+  EXPECT_THAT(error("a.asc", "ncols 2\nnrows 2\ncellsize 1\n1 2\n3 inf\n"), HasSubstr("a.asc:5:"));
   EXPECT_THAT(error("a.asc", "ncols 2\nnrows 2\ncellsize 1\n1 2\n3 1e300\n"), HasSubstr("1e300"));
   EXPECT_THAT(error("a.asc", "ncols 2\nnrows 2\ncellsize 1\n1 2\n3\n"), HasSubstr("3 of 4"));
   EXPECT_THAT(error("a.asc", "ncols 2\nnrows 2\ncellsize 1\n1 2 3 4 5\n"),
@@ -202,9 +209,177 @@ TEST(HeightMapFile, NamesTheFileAndLineOfWhatIsWrong) {
   EXPECT_THAT(error("a.png", "no picture at all"), testing::_);
   EXPECT_THAT(error("a.pgm", ""), HasSubstr("empty"));
   EXPECT_THAT(inputError([] { readHeightMap("nothing.pgm"); }), HasSubstr("no such file"));
-  EXPECT_THAT(inputError([] { readHeightMap("a.pgm", {.cellSize = 0}); }), HasSubstr("cellSize"));
+  EXPECT_THAT(inputError([] { readHeightMap("a.pgm", {.cellSize = 0}); }),
+              HasSubstr("`cell-size`"));
   EXPECT_THAT(inputError([] { readHeightMap("a.pgm", {.heightScale = -1}); }),
-              HasSubstr("heightScale"));
+              HasSubstr("`height-scale`"));
+}
+
+/// A grid of 5 x 4 heights 1, 2, ..., with `hole` in place of number 7 (counted from 0).
+std::string ascGrid(const std::string& keys, const std::string& hole) {
+  std::string text = "ncols 5\nnrows 4\ncellsize 10\n" + keys;
+  for (int p = 0; p < 20; ++p)
+    text += (p == 7 ? hole : std::to_string(p + 1)) + (p % 5 == 4 ? "\n" : " ");
+  return text;
+}
+
+struct Read {
+  HeightMap map;
+  Warnings warnings;
+};
+Read readWarned(const std::string& name, const std::string& bytes,
+                HeightMapFileOptions options = {}) {
+  Read read;
+  options.warnings = &read.warnings;
+  read.map = readHeightMap(bytes, name, options);
+  return read;
+}
+
+TEST(HeightMapFile, BytesAreReadAsTheFileIs) {
+  const std::string bytes = wholePgm(6, 5, true);
+  const HeightMap file = readBytes("a.pgm", bytes), memory = readHeightMap(bytes, "a.pgm", {});
+  EXPECT_EQ(memory.heights, file.heights);
+  EXPECT_EQ(memory.cellSize, file.cellSize);
+  EXPECT_THAT(inputError([&] { readHeightMap(bytes, "a.tif", {}); }), HasSubstr("a.tif"));
+}
+
+TEST(HeightMapFile, NoDataIsKnownHoweverItIsSpelled) {
+  // The mean of the eight around it, 2, 3, 4, 7, 9, 12, 13, 14.
+  const float filled = 8;
+  const auto check = [&](const std::string& keys, const std::string& hole, bool announced) {
+    const Read read = readWarned("a.asc", ascGrid(keys, hole));
+    EXPECT_EQ(read.map.heights[7], filled) << keys << hole;
+    EXPECT_EQ(read.map.heights[8], 9) << keys << hole;
+    if (announced) {
+      EXPECT_THAT(read.warnings, IsEmpty()) << keys << hole;
+    } else {
+      EXPECT_THAT(read.warnings,
+                  ElementsAre(HasSubstr("a.asc: filling 1 cell without data, which no")))
+          << keys << hole;
+    }
+  };
+  check("NODATA_value -9999\n", "-9999", true);
+  check("nodata -9999\n", "-9999.000", true);
+  check("NODATA_value -9999\n", "-9998.9990234375", true);  // through a float
+  check("NODATA_value -3.4028234663852886e+38\n", "-3.40282e+38", true);
+  check("NODATA_value nan\n", "-nan", true);
+  check("NODATA_value 0\n", "0", true);
+  check("NODATA_value -9999\n", "nan", false);
+  for (const char* hole :
+       {"-9999", "-9999.0", "-32768", "-3.4028235e+38", "nan", "NaN", "-1.#IND", "1.#QNAN"}) {
+    check("", hole, false);
+  }
+  // A height near a round number is a height.
+  const Read read = readWarned("a.asc", ascGrid("NODATA_value -9999\n", "-9998"));
+  EXPECT_EQ(read.map.heights[7], -9998);
+  EXPECT_EQ(readWarned("a.asc", ascGrid("NODATA_value 0\n", "0.0001")).map.heights[7], 0.0001f);
+}
+
+TEST(HeightMapFile, TextInOtherEncodingsAndWithDecimalCommasIsRead) {
+  const std::string text = ascGrid("NODATA_value -9999\n", "7.5");
+  std::string returns = text, commas = text, wide = "\xff\xfe";
+  std::replace(returns.begin(), returns.end(), '\n', '\r');
+  commas.replace(commas.find("7.5"), 3, "7,5");
+  for (const char c : text) wide += std::string{c, '\0'};
+  for (const std::string& bytes : {"\xef\xbb\xbf" + text, returns, commas, wide}) {
+    EXPECT_EQ(readWarned("a.asc", bytes).map.heights[7], 7.5f);
+  }
+}
+
+TEST(HeightMapFile, AnEsriGridTakesTheUnitsThatAreSet) {
+  const std::string text = ascGrid("", "8");
+  const HeightMap map = readHeightMap(text, "a.asc", {.cellSize = 2, .heightScale = 0.5});
+  EXPECT_EQ(map.cellSize, 2);
+  EXPECT_EQ(map.heights[7], 4);
+}
+
+TEST(HeightMapFile, CellsInDegreesBecomeMetersAndAreSaid) {
+  const std::string heights = "100 200 300\n400 500 600\n700 800 900\n";
+  const std::string degrees =
+      "ncols 3\nnrows 3\nxllcorner 7.5\nyllcorner 60\ncellsize 0.001\n" + heights;
+  const Read read = readWarned("a.asc", degrees);
+  // A degree of a sphere of 6371 km is 111,195 m; at 60 degrees north half of that along x, and the
+  // root of one half of it for cells of the same area.
+  EXPECT_NEAR(read.map.cellSize, 111.195 * std::sqrt(0.5), 0.01);
+  EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("a.asc: its cells of 0.001 degrees")));
+  EXPECT_EQ(readWarned("a.asc", degrees, {.cellSize = 90}).map.cellSize, 90);
+  // The same numbers on a national grid are in some other unit, which only the user knows.
+  const Read other = readWarned(
+      "a.asc", "ncols 3\nnrows 3\nxllcorner 600000\nyllcorner 200000\ncellsize 0.001\n" + heights);
+  EXPECT_EQ(other.map.cellSize, 0.001);
+  EXPECT_THAT(other.warnings, ElementsAre(HasSubstr("`cell-size`")));
+}
+
+/// The bytes that hexadecimal digits encode.
+std::string fromHex(const std::string& digits) {
+  std::string bytes;
+  for (std::size_t i = 0; i < digits.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
+  return bytes;
+}
+
+TEST(HeightMapFile, APalettesDepthIsNotThatOfItsGrays) {
+  // 4 x 4 pixels, gray 100 to 115, as indices of 4 and of 8 bits into the same palette.
+  const std::string four = fromHex(
+      "89504e470d0a1a0a0000000d49484452000000040000000404030000005bdf834d00000030504c5445646464"
+      "6565656666666767676868686969696a6a6a6b6b6b6c6c6c6d6d6d6e6e6e6f6f6f7070707171717272727373"
+      "73101dd2ee000000144944415478da63605466704d67e85ccd70f63d000e5003c1290f76060000000049454e"
+      "44ae426082");
+  const std::string eight = fromHex(
+      "89504e470d0a1a0a0000000d49484452000000040000000408030000009e2f6e4c00000030504c5445646464"
+      "6565656666666767676868686969696a6a6a6b6b6b6c6c6c6d6d6d6e6e6e6f6f6f7070707171717272727373"
+      "73101dd2ee0000001c4944415478da6360606462666061656367e0e0e4e266e0e1e5e307000320007995fb03"
+      "960000000049454e44ae426082");
+  for (const std::string& bytes : {four, eight}) {
+    const HeightMap map = readHeightMap(bytes, "a.png", {});
+    for (int p = 0; p < 16; ++p) EXPECT_EQ(map.heights[p], 100 + p);
+    EXPECT_DOUBLE_EQ(map.cellSize, 5 * 15 / 3.0);
+    EXPECT_EQ(map.steps->largest, 255);
+  }
+}
+
+TEST(HeightMapFile, TransparentPixelsHaveNoHeight) {
+  const TemporaryFolder folder;
+  Image8 image{3, 3, 2, {}};
+  for (int p = 0; p < 9; ++p) {
+    image.pixels.push_back(static_cast<std::uint8_t>(p == 4 ? 0 : 10));
+    image.pixels.push_back(p == 4 ? 0 : 255);
+  }
+  writePng(folder / "a.png", image);
+  const Read read = readWarned("a.png", readFile(folder / "a.png"));
+  EXPECT_EQ(read.map.heights, std::vector<float>(9, 10));
+  EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("a.png: filling 1 transparent pixel ")));
+}
+
+TEST(HeightMapFile, WritesMapsOfFewBitsAsBrightAsTheyWere) {
+  const TemporaryFolder folder;
+  for (const char* name : {"o.png", "o.pgm"}) {
+    Warnings warnings;
+    HeightMap map = readHeightMap(wholePgm(16, 16, false), "a.pgm", {.heightScale = 3});
+    ASSERT_TRUE(map.steps.has_value());
+    EXPECT_EQ(map.steps->largest, 255);
+    EXPECT_EQ(map.heights[200], 600);
+    writeHeightMap(folder / name, map, {.warnings = &warnings});
+    const HeightMap back = readHeightMap(folder / name);
+    EXPECT_EQ(back.steps->largest, 65535);
+    for (int p = 0; p < 256; ++p) EXPECT_EQ(back.heights[p], 257.0f * p) << name;
+    EXPECT_THAT(warnings, IsEmpty());
+    // What was not integers fills the whole range, and the scale is said.
+    map.steps.reset();
+    for (float& h : map.heights) h = h / 765 * 4 - 3;
+    writeHeightMap(folder / name, map, {.warnings = &warnings});
+    EXPECT_EQ(readHeightMap(folder / name).heights[0], 0);
+    EXPECT_EQ(readHeightMap(folder / name).heights[255], 65535);
+    EXPECT_THAT(warnings,
+                ElementsAre(HasSubstr("the integers 0 to 65535 are heights from -3 to 1")));
+    warnings.clear();
+    writeHeightMap(folder / name, map, {.heightScale = 1, .warnings = &warnings});
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr("heights are outside of 0 to")));
+    warnings.clear();
+    for (float& h : map.heights) h += 4;
+    writeHeightMap(folder / name, map, {.heightScale = 1, .warnings = &warnings});
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr("span only 4 steps")));
+  }
 }
 
 TEST(HeightMapFile, EveryPrefixIsReadOrRefused) {
@@ -222,7 +397,7 @@ TEST(HeightMapFile, EveryPrefixIsReadOrRefused) {
     const auto& whole = file.second;
     EXPECT_EQ(inputError([&] { readBytes(name, whole); }), "");
     for (std::size_t n = 0; n < whole.size(); ++n) {
-      // The last digits of a text may be missing without anyone being able to tell.
+      // The last digits of a text may be missing without any trace.
       if (std::string(name) == "a.asc" && n + 3 >= whole.size()) continue;
       // A PNG is whole once its pixels are; some readers do without its last, empty chunk.
       if (std::string(name) == "a.png" && n + 16 >= whole.size()) continue;

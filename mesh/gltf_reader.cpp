@@ -5,12 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/text_scanner.h"
 #include "mesh/gltf_document.h"
+#include "mesh/gltf_materials.h"
 #include "mesh/mesh_formats.h"
 
 namespace exemplar {
@@ -35,8 +36,14 @@ struct Transform {
 
 /// Vertices that one or more primitives of a mesh index.
 struct VertexSet {
+  /// A joint of a skin, and its share in moving a vertex.
+  struct Joint {
+    std::uint32_t index;
+    double weight;
+  };
   std::vector<Vec3d> positions;
   std::vector<std::array<float, 4>> colors;  // as many, or none
+  std::vector<std::vector<Joint>> joints;    // as many, or none
   /// Whether equal vertices are to be joined: they were split for normals or texture coordinates,
   /// which belong to corners here, or never shared. Without a reason to split they stay apart.
   bool join = false;
@@ -54,25 +61,13 @@ struct DecodedMesh {
   std::vector<Primitive> primitives;
 };
 
+/// A mesh where the scene shows it.
 struct Instance {
   std::uint64_t mesh = 0;
   Transform transform;
-};
-
-/// How a material's base-color texture is looked up.
-struct TextureUse {
-  std::uint64_t texCoord = 0;
-  std::array<double, 2> offset{0, 0}, scale{1, 1};
-  double rotation = 0;
-
-  /// The texture coordinate, v up, for one in the file, v down (KHR_texture_transform turns
-  /// counterclockwise as seen on the picture).
-  Vec2f apply(double u, double v) const {
-    const double c = std::cos(rotation), s = std::sin(rotation);
-    const double scaledU = u * scale[0], scaledV = v * scale[1];
-    return {static_cast<float>(offset[0] + c * scaledU + s * scaledV),
-            static_cast<float>(1 - (offset[1] - s * scaledU + c * scaledV))};
-  }
+  std::optional<std::uint64_t> skin;
+  std::vector<double> weights;  ///< of morph targets
+  const DecodedMesh* decoded = nullptr;
 };
 
 /// Gives each different pair of position and color one vertex of a mesh.
@@ -104,10 +99,7 @@ class Joiner {
 class GltfReader {
  public:
   GltfReader(std::string_view bytes, const MeshSource& source)
-      : in_(bytes, source), source_(source) {
-    materialUsed_.resize(in_.count("materials"), false);
-    textureUses_.resize(in_.count("materials"));
-  }
+      : in_(bytes, source), source_(source), materials_(in_, source, mesh_) {}
 
   TriangleMesh read() {
     findInstances();
@@ -117,7 +109,7 @@ class GltfReader {
                                                           static_cast<double>(instances_.size()));
       add(instances_[i]);
     }
-    finishMaterials();
+    materials_.finish();
     return std::move(mesh_);
   }
 
@@ -131,6 +123,12 @@ class GltfReader {
     in_.numbers(node, "translation", 3, move, place);
     in_.numbers(node, "rotation", 4, q, place);
     in_.numbers(node, "scale", 3, scale, place);
+    return fromParts(move, q, scale, place);
+  }
+
+  /// A scale, then a rotation by a quaternion (x, y, z, w), then a move.
+  Transform fromParts(const double* move, const double* q, const double* scale,
+                      const std::string& place) const {
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 0) || !std::isfinite(length)) in_.fail(place + ".rotation should have length 1");
     const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
@@ -148,6 +146,10 @@ class GltfReader {
     std::vector<std::uint64_t> roots;
     if (in_.count("scenes") > 0) {
       const std::uint64_t scene = in_.index(in_.root(), "scene", "the file").value_or(0);
+      if (in_.count("scenes") > 1) {
+        source_.warn("of its " + std::to_string(in_.count("scenes")) + " scenes only scenes[" +
+                     std::to_string(scene) + "] is read");
+      }
       const std::string place = "scenes[" + std::to_string(scene) + "]";
       appendNodes(in_.element("scenes", scene, "the file"), "nodes", place, roots);
       return roots;
@@ -183,37 +185,110 @@ class GltfReader {
     struct Step {
       std::uint64_t node;
       Transform parent;
+      bool visible;
     };
     std::vector<Step> stack;
-    const auto push = [&](std::vector<std::uint64_t> nodes, const Transform& parent) {
+    const auto push = [&](std::vector<std::uint64_t> nodes, const Transform& parent, bool visible) {
       // The stack gives back the last one first; the order of the file is what we want.
-      for (std::size_t i = nodes.size(); i-- > 0;) stack.push_back({nodes[i], parent});
+      for (std::size_t i = nodes.size(); i-- > 0;) stack.push_back({nodes[i], parent, visible});
     };
-    push(rootNodes(), {});
-    std::vector<bool> seen(in_.count("nodes"), false);
+    placed_.resize(in_.count("nodes"));
+    push(rootNodes(), {}, true);
     while (!stack.empty()) {
       const Step step = stack.back();
       stack.pop_back();
       const std::string place = "nodes[" + std::to_string(step.node) + "]";
-      if (seen[step.node]) in_.fail(place + " is reached twice: nodes should form a tree");
-      seen[step.node] = true;
+      if (placed_[step.node]) in_.fail(place + " is reached twice: nodes should form a tree");
       const Json& node = in_.element("nodes", step.node, "the scene");
       const Transform transform = step.parent * transformOf(node, place);
-      if (const auto mesh = in_.index(node, "mesh", place)) {
-        in_.element("meshes", *mesh, place);
-        instances_.push_back({*mesh, transform});
-      }
+      placed_[step.node] = transform;
+      const bool visible = step.visible && isVisible(node, place);
+      if (visible) addInstances(node, transform, place);
       std::vector<std::uint64_t> children;
       appendNodes(node, "children", place, children);
-      push(std::move(children), transform);
+      push(std::move(children), transform, visible);
     }
+  }
+
+  /// KHR_node_visibility hides a node with all below it.
+  bool isVisible(const Json& node, const std::string& place) const {
+    const Json* visibility = in_.extension(node, "KHR_node_visibility", place);
+    if (!visibility) return true;
+    const auto visible = visibility->find("visible");
+    return visible == visibility->end() || !visible->is_boolean() || visible->get<bool>();
+  }
+
+  void addInstances(const Json& node, const Transform& transform, const std::string& place) {
+    const auto mesh = in_.index(node, "mesh", place);
+    if (!mesh) return;
+    const Json& json = in_.element("meshes", *mesh, place);
+    Instance instance{.mesh = *mesh, .transform = transform};
+    instance.skin = in_.index(node, "skin", place);
+    // The weights of a node come before those of its mesh.
+    instance.weights = weightsOf(node, place);
+    if (instance.weights.empty()) {
+      instance.weights = weightsOf(json, "meshes[" + std::to_string(*mesh) + "]");
+    }
+    const Json* instancing = in_.extension(node, "EXT_mesh_gpu_instancing", place);
+    if (!instancing) {
+      instances_.push_back(std::move(instance));
+      return;
+    }
+    for (const Transform& copy : instanceTransforms(*instancing, place)) {
+      instance.transform = transform * copy;
+      instances_.push_back(instance);
+    }
+  }
+
+  std::vector<double> weightsOf(const Json& object, const std::string& place) const {
+    const Json* array = in_.array(object, "weights", place);
+    if (!array) return {};
+    std::vector<double> weights(array->size());
+    in_.numbers(object, "weights", weights.size(), weights.data(), place);
+    return weights;
+  }
+
+  /// The places that EXT_mesh_gpu_instancing gives a node's mesh.
+  std::vector<Transform> instanceTransforms(const Json& instancing, const std::string& node) {
+    const std::string place = node + ".EXT_mesh_gpu_instancing";
+    const Json* attributes = in_.object(instancing, "attributes", place);
+    if (!attributes) in_.fail(place + ".attributes is missing");
+    std::optional<std::uint64_t> count;
+    const auto read = [&](const char* key, int components) {
+      std::vector<double> numbers;
+      const auto index = in_.index(*attributes, key, place);
+      if (!index) return numbers;
+      GltfAccessor accessor = in_.accessor(*index, place);
+      accessor.normalized = true;  // integers are allowed for rotations only, as shares of 1
+      if (accessor.components != components || (count && *count != accessor.count))
+        in_.fail(accessor.place + " does not fit its use as " + key + " of instances");
+      count = accessor.count;
+      numbers = in_.readNumbers(accessor);
+      for (const double n : numbers) {
+        if (!std::isfinite(n)) in_.fail(accessor.place + " has a NaN or infinite number");
+      }
+      return numbers;
+    };
+    const std::vector<double> moves = read("TRANSLATION", 3), rotations = read("ROTATION", 4),
+                              scales = read("SCALE", 3);
+    std::vector<Transform> transforms;
+    constexpr double kNoMove[] = {0, 0, 0}, kNoTurn[] = {0, 0, 0, 1}, kNoScale[] = {1, 1, 1};
+    for (std::uint64_t i = 0; i < count.value_or(1); ++i) {
+      transforms.push_back(fromParts(moves.empty() ? kNoMove : &moves[3 * i],
+                                     rotations.empty() ? kNoTurn : &rotations[4 * i],
+                                     scales.empty() ? kNoScale : &scales[3 * i], place));
+    }
+    return transforms;
   }
 
   void decodeMeshes() {
     double bytes = 0, vertices = 0;
-    for (const Instance& instance : instances_) {
-      const auto [found, added] = meshes_.try_emplace(instance.mesh);
-      if (added) found->second = decodeMesh(instance.mesh);
+    for (Instance& instance : instances_) {
+      // Meshes that are bent differently are decoded apart.
+      const auto [found, added] =
+          meshes_.try_emplace({instance.mesh, instance.skin.has_value(), instance.weights});
+      if (added) found->second = decodeMesh(instance);
+      instance.decoded = &found->second;
       for (const VertexSet& s : found->second.sets) {
         vertices += static_cast<double>(s.positions.size());
         bytes += static_cast<double>(s.positions.size() * 40);
@@ -227,14 +302,15 @@ class GltfReader {
     if (vertices >= kNone) in_.fail("the scene has more than 4294967294 vertices");
   }
 
-  DecodedMesh decodeMesh(std::uint64_t index) {
+  DecodedMesh decodeMesh(const Instance& instance) {
+    const std::uint64_t index = instance.mesh;
     source_.progress.report("decoding meshes", 0.5 * static_cast<double>(meshes_.size()) /
                                                    static_cast<double>(in_.count("meshes") + 1));
     DecodedMesh mesh;
     const std::string place = "meshes[" + std::to_string(index) + "]";
     const Json* primitives = in_.array(in_.element("meshes", index, place), "primitives", place);
     if (!primitives) in_.fail(place + ".primitives is missing");
-    std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> setOf;
+    std::map<std::vector<std::uint64_t>, std::size_t> setOf;
     std::map<std::uint64_t, std::vector<double>> uvsOf;
     for (std::size_t i = 0; i < primitives->size(); ++i) {
       const std::string at = place + ".primitives[" + std::to_string(i) + "]";
@@ -242,15 +318,34 @@ class GltfReader {
       if (!json.is_object()) in_.fail(at + " should be an object");
       const std::uint64_t mode = in_.index(json, "mode", at).value_or(4);
       if (mode > 6) in_.fail(at + ".mode should be 0 to 6");
-      if (mode < 4) continue;  // points and lines
+      if (mode < 4) {
+        source_.warn("points and lines are left out");
+        continue;
+      }
       const Json* attributes = in_.object(json, "attributes", at);
       if (!attributes) in_.fail(at + ".attributes is missing");
       const auto position = in_.index(*attributes, "POSITION", at + ".attributes");
       if (!position) in_.fail(at + " has no POSITION");
       const auto color = in_.index(*attributes, "COLOR_0", at + ".attributes");
-      const auto [set, added] =
-          setOf.try_emplace({*position, color.value_or(~std::uint64_t{0})}, mesh.sets.size());
-      if (added) mesh.sets.push_back(decodeSet(*position, color, at));
+      if (in_.extension(json, "KHR_draco_mesh_compression", at) &&
+          !in_.element("accessors", *position, at).contains("bufferView")) {
+        in_.fail(at +
+                 " is compressed (KHR_draco_mesh_compression), which is not supported; save "
+                 "it without");
+      }
+      std::vector<std::uint64_t> sources{*position, color.value_or(~std::uint64_t{0})};
+      const std::vector<WeightedTarget> targets = morphTargets(json, instance.weights, at);
+      for (const WeightedTarget& target : targets) sources.push_back(target.accessor);
+      std::vector<std::array<std::uint64_t, 2>> joints;
+      if (instance.skin) joints = jointAccessors(*attributes, at);
+      for (const auto& [joint, weight] : joints) sources.insert(sources.end(), {joint, weight});
+      const auto [set, added] = setOf.try_emplace(sources, mesh.sets.size());
+      if (added) {
+        mesh.sets.push_back(decodeSet(*position, color, at));
+        morph(mesh.sets.back(), targets);
+        for (const auto& [joint, weight] : joints)
+          decodeJoints(mesh.sets.back(), joint, weight, at);
+      }
       VertexSet& vertices = mesh.sets[set->second];
       const bool hasIndices = json.contains("indices");
       vertices.join = vertices.join || !hasIndices || attributes->size() > (color ? 2u : 1u);
@@ -260,7 +355,7 @@ class GltfReader {
       const std::vector<std::uint32_t> corners = decodeIndices(json, vertices.positions.size(), at);
       primitive.triangles = trianglesOf(corners, mode, at);
       if (const auto material = in_.index(json, "material", at)) {
-        useMaterial(*material, at);
+        materials_.use(*material, at);
         primitive.material = static_cast<std::uint32_t>(*material);
       }
       decodeUvs(primitive, *attributes, vertices.positions.size(), uvsOf, at);
@@ -300,6 +395,113 @@ class GltfReader {
       }
     }
     return set;
+  }
+
+  /// A morph target's positions, and how much of them is added.
+  struct WeightedTarget {
+    std::uint64_t accessor;
+    double weight;
+  };
+
+  /// The targets of a primitive that its weights move.
+  std::vector<WeightedTarget> morphTargets(const Json& primitive,
+                                           const std::vector<double>& weights,
+                                           const std::string& at) const {
+    std::vector<WeightedTarget> result;
+    const Json* targets = in_.array(primitive, "targets", at);
+    if (!targets) return result;
+    for (std::size_t i = 0; i < std::min(targets->size(), weights.size()); ++i) {
+      const std::string place = at + ".targets[" + std::to_string(i) + "]";
+      if (!(*targets)[i].is_object()) in_.fail(place + " should be an object");
+      const auto position = in_.index((*targets)[i], "POSITION", place);
+      if (position && weights[i] != 0) result.push_back({*position, weights[i]});
+    }
+    return result;
+  }
+
+  void morph(VertexSet& set, const std::vector<WeightedTarget>& targets) {
+    for (const WeightedTarget& target : targets) {
+      const GltfAccessor moves = in_.accessor(target.accessor, "a morph target");
+      if (moves.components != 3 || moves.count != set.positions.size()) {
+        in_.fail(moves.place + " should be " + std::to_string(set.positions.size()) +
+                 " of VEC3: it is used as a morph target");
+      }
+      const std::vector<double> m = in_.readNumbers(moves);
+      for (std::size_t v = 0; v < set.positions.size(); ++v) {
+        set.positions[v] += Vec3d{m[3 * v], m[3 * v + 1], m[3 * v + 2]} * target.weight;
+        if (const char* problem = coordinateProblem(set.positions[v])) {
+          in_.fail(moves.place + ": vertex " + std::to_string(v) + ", as it is morphed, " +
+                   problem);
+        }
+      }
+    }
+  }
+
+  /// The accessors of a primitive's JOINTS_n and WEIGHTS_n.
+  std::vector<std::array<std::uint64_t, 2>> jointAccessors(const Json& attributes,
+                                                           const std::string& at) const {
+    std::vector<std::array<std::uint64_t, 2>> result;
+    for (int n = 0;; ++n) {
+      const std::string suffix = "_" + std::to_string(n);
+      const auto joints = in_.index(attributes, ("JOINTS" + suffix).c_str(), at);
+      const auto weights = in_.index(attributes, ("WEIGHTS" + suffix).c_str(), at);
+      if (!joints || !weights) return result;
+      result.push_back({*joints, *weights});
+    }
+  }
+
+  /// Adds up to four joints to each vertex.
+  void decodeJoints(VertexSet& set, std::uint64_t jointAccessor, std::uint64_t weightAccessor,
+                    const std::string& at) {
+    GltfAccessor joints = in_.accessor(jointAccessor, at);
+    GltfAccessor weights = in_.accessor(weightAccessor, at);
+    joints.normalized = false;
+    weights.normalized = true;
+    for (const GltfAccessor* a : {&joints, &weights}) {
+      if (a->components != 4 || a->count != set.positions.size()) {
+        in_.fail(a->place + " should be " + std::to_string(set.positions.size()) +
+                 " of VEC4: it is used for a skin");
+      }
+    }
+    const std::vector<double> j = in_.readNumbers(joints), w = in_.readNumbers(weights);
+    set.joints.resize(set.positions.size());
+    for (std::size_t i = 0; i < j.size(); ++i) {
+      if (!(w[i] > 0) || !std::isfinite(w[i])) continue;
+      if (!(j[i] >= 0 && j[i] < kNone)) in_.fail(joints.place + " has an index that is none");
+      set.joints[i / 4].push_back({static_cast<std::uint32_t>(j[i]), w[i]});
+    }
+  }
+
+  /// What a skin's joints do to vertices: where a joint is now, after undoing where it was when the
+  /// skin was bound to it.
+  std::vector<Transform> jointTransforms(std::uint64_t skin) {
+    const std::string place = "skins[" + std::to_string(skin) + "]";
+    const Json& json = in_.element("skins", skin, "a node");
+    std::vector<std::uint64_t> joints;
+    appendNodes(json, "joints", place, joints);
+    if (joints.empty()) in_.fail(place + " has no joints");
+    std::vector<double> inverse;
+    if (const auto index = in_.index(json, "inverseBindMatrices", place)) {
+      const GltfAccessor accessor = in_.accessor(*index, place);
+      if (accessor.components != 16 || accessor.count < joints.size())
+        in_.fail(accessor.place + " should be a MAT4 for each joint");
+      inverse = in_.readNumbers(accessor);
+    }
+    std::vector<Transform> transforms;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      if (!placed_[joints[i]]) {
+        in_.fail(place + " names nodes[" + std::to_string(joints[i]) +
+                 "], which is not in the scene");
+      }
+      transforms.push_back(*placed_[joints[i]]);
+      if (inverse.empty()) continue;
+      const double* m = &inverse[16 * i];
+      transforms.back() = transforms.back() * Transform{{m[0], m[1], m[2]},
+                                                        {m[4], m[5], m[6]},
+                                                        {m[8], m[9], m[10]},
+                                                        {m[12], m[13], m[14]}};
+    }
+    return transforms;
   }
 
   std::vector<std::uint32_t> decodeIndices(const Json& primitive, std::size_t vertices,
@@ -345,8 +547,8 @@ class GltfReader {
 
   void decodeUvs(Primitive& primitive, const Json& attributes, std::size_t vertices,
                  std::map<std::uint64_t, std::vector<double>>& uvsOf, const std::string& at) {
-    TextureUse use;
-    if (primitive.material != kNone) use = textureUses_[primitive.material];
+    GltfTextureUse use;
+    if (primitive.material != kNone) use = materials_.textureUse(primitive.material);
     const std::string key = "TEXCOORD_" + std::to_string(use.texCoord);
     const auto index = in_.index(attributes, key.c_str(), at + ".attributes");
     if (!index) return;
@@ -356,9 +558,10 @@ class GltfReader {
       if (accessor.components != 2)
         in_.fail(accessor.place + " should be VEC2: it is used as " + key);
       found->second = in_.readNumbers(accessor);
-      for (const double c : found->second) {
-        if (!(std::abs(c) < 1e15))
-          in_.fail(accessor.place + " has a NaN or too large texture coordinate");
+      for (double& c : found->second) {
+        if (std::abs(c) < 1e15) continue;
+        source_.warn("texture coordinates that are NaN or too large are taken as 0");
+        c = 0;
       }
     }
     const std::vector<double>& uvs = found->second;
@@ -378,38 +581,15 @@ class GltfReader {
     }
   }
 
-  /// Marks a material as used and finds out how its texture is looked up.
-  void useMaterial(std::uint64_t index, const std::string& at) {
-    const Json& json = in_.element("materials", index, at);
-    if (materialUsed_[index]) return;
-    materialUsed_[index] = true;
-    const std::string place = "materials[" + std::to_string(index) + "]";
-    const Json* texture = baseColorTexture(json, place);
-    if (!texture) return;
-    TextureUse& use = textureUses_[index];
-    use.texCoord = in_.index(*texture, "texCoord", place).value_or(0);
-    const Json* extensions = in_.object(*texture, "extensions", place);
-    if (!extensions) return;
-    if (const Json* transform = in_.object(*extensions, "KHR_texture_transform", place)) {
-      const std::string within = place + ".KHR_texture_transform";
-      in_.numbers(*transform, "offset", 2, use.offset.data(), within);
-      in_.numbers(*transform, "scale", 2, use.scale.data(), within);
-      use.rotation = in_.number(*transform, "rotation", 0, within);
-      use.texCoord = in_.index(*transform, "texCoord", within).value_or(use.texCoord);
-    }
-  }
-
-  const Json* baseColorTexture(const Json& material, const std::string& place) const {
-    const Json* pbr = in_.object(material, "pbrMetallicRoughness", place);
-    return pbr ? in_.object(*pbr, "baseColorTexture", place) : nullptr;
-  }
-
   void add(const Instance& instance) {
-    const DecodedMesh& source = meshes_.at(instance.mesh);
-    const bool mirrors = instance.transform.mirrors();
+    const DecodedMesh& source = *instance.decoded;
+    std::vector<Transform> joints;
+    if (instance.skin) joints = jointTransforms(*instance.skin);
+    const bool mirrors = joints.empty() ? instance.transform.mirrors() : joints.front().mirrors();
     Joiner joiner;
     std::vector<std::vector<std::uint32_t>> vertexOf;
-    for (const VertexSet& set : source.sets) vertexOf.push_back(addVertices(set, instance, joiner));
+    for (const VertexSet& set : source.sets)
+      vertexOf.push_back(addVertices(set, instance.transform, joints, joiner));
     for (const Primitive& p : source.primitives) {
       const std::vector<std::uint32_t>& vertex = vertexOf[p.set];
       if (!p.uvs.empty()) mesh_.uvs.resize(mesh_.triangles.size());
@@ -429,14 +609,14 @@ class GltfReader {
   }
 
   /// Adds a set's vertices, turned and moved; returns the index in the result of each.
-  std::vector<std::uint32_t> addVertices(const VertexSet& set, const Instance& instance,
-                                         Joiner& joiner) {
+  std::vector<std::uint32_t> addVertices(const VertexSet& set, const Transform& transform,
+                                         const std::vector<Transform>& joints, Joiner& joiner) {
     std::vector<std::uint32_t> vertexOf;
     vertexOf.reserve(set.positions.size());
     if (!set.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), {1, 1, 1, 1});
     for (std::size_t v = 0; v < set.positions.size(); ++v) {
       if (v % 16384 == 0) source_.progress.check();
-      const Vec3d p = instance.transform(set.positions[v]);
+      const Vec3d p = set.joints.empty() ? transform(set.positions[v]) : skinned(set, v, joints);
       if (const char* problem = coordinateProblem(p)) {
         in_.fail(std::string("a vertex, as its node places it, ") + problem);
       }
@@ -457,120 +637,29 @@ class GltfReader {
     return vertexOf;
   }
 
-  /// Keeps the materials that triangles use, in the order of the file; the standard's default one
-  /// comes last, for triangles without any.
-  void finishMaterials() {
-    std::vector<std::uint32_t> materialOf(materialUsed_.size() + 1, kNone);
-    const auto slotOf = [&](std::uint32_t m) { return m == kNone ? materialUsed_.size() : m; };
-    std::vector<bool> isUsed(materialUsed_.size() + 1, false);
-    for (const std::uint32_t m : mesh_.triangleMaterials) isUsed[slotOf(m)] = true;
-    const bool onlyDefault = std::find(isUsed.begin(), isUsed.end() - 1, true) == isUsed.end() - 1;
-    if (onlyDefault || isPlaceholder(isUsed)) {
-      mesh_.triangleMaterials.clear();
-      return;
-    }
-    for (std::size_t m = 0; m < isUsed.size(); ++m) {
-      if (!isUsed[m]) continue;
-      materialOf[m] = static_cast<std::uint32_t>(mesh_.materials.size());
-      mesh_.materials.push_back(
-          m < materialUsed_.size()
-              ? readMaterial(m)
-              : Material{.baseColor = {1, 1, 1, 1}, .metallic = 1, .roughness = 1});
-    }
-    for (std::uint32_t& m : mesh_.triangleMaterials) m = materialOf[slotOf(m)];
-  }
-
-  /// Whether the only material is the one that `formatGlb` gives a mesh without materials.
-  bool isPlaceholder(const std::vector<bool>& isUsed) const {
-    if (std::count(isUsed.begin(), isUsed.end(), true) != 1 || isUsed.back()) return false;
-    const std::size_t m =
-        static_cast<std::size_t>(std::find(isUsed.begin(), isUsed.end(), true) - isUsed.begin());
-    const Json& json = in_.element("materials", m, "a primitive");
-    const auto extras = json.find("extras");
-    return extras != json.end() && extras->is_object() && extras->contains("exemplarPlaceholder");
-  }
-
-  Material readMaterial(std::uint64_t index) {
-    const std::string place = "materials[" + std::to_string(index) + "]";
-    const Json& json = in_.element("materials", index, place);
-    Material m{.name = in_.text(json, "name", place),
-               .baseColor = {1, 1, 1, 1},
-               .metallic = 1,
-               .roughness = 1};
-    if (const Json* pbr = in_.object(json, "pbrMetallicRoughness", place)) {
-      double color[4];
-      if (in_.numbers(*pbr, "baseColorFactor", 4, color, place)) {
-        for (int c = 0; c < 4; ++c) m.baseColor[c] = bounded(color[c], 1, place);
+  /// Where a skin puts a vertex; its node's own transform has no effect (glTF 2.0, 3.7.3.2).
+  Vec3d skinned(const VertexSet& set, std::size_t v, const std::vector<Transform>& joints) const {
+    Vec3d sum{};
+    double weights = 0;
+    for (const VertexSet::Joint& joint : set.joints[v]) {
+      if (joint.index >= joints.size()) {
+        in_.fail("a vertex names joint " + std::to_string(joint.index) + " of " +
+                 std::to_string(joints.size()));
       }
-      m.metallic = bounded(in_.number(*pbr, "metallicFactor", 1, place), 1, place);
-      m.roughness = bounded(in_.number(*pbr, "roughnessFactor", 1, place), 1, place);
+      sum += joints[joint.index](set.positions[v]) * joint.weight;
+      weights += joint.weight;
     }
-    const std::string alphaMode = in_.text(json, "alphaMode", place);
-    if (alphaMode.empty() || alphaMode == "OPAQUE") m.baseColor[3] = 1;  // so the standard says
-    double emission[3];
-    if (in_.numbers(json, "emissiveFactor", 3, emission, place)) {
-      double strength = 1;
-      if (const Json* extensions = in_.object(json, "extensions", place)) {
-        if (const Json* e = in_.object(*extensions, "KHR_materials_emissive_strength", place)) {
-          strength = in_.number(*e, "emissiveStrength", 1, place);
-        }
-      }
-      for (int c = 0; c < 3; ++c) m.emission[c] = bounded(emission[c] * strength, 1e30, place);
-    }
-    if (const Json* texture = baseColorTexture(json, place))
-      m.baseColorTexture = readTexture(*texture, place);
-    return m;
-  }
-
-  float bounded(double value, double most, const std::string& place) const {
-    if (!(value >= 0 && value <= most))
-      in_.fail(place + " has a factor that is negative or too large");
-    return static_cast<float>(value);
-  }
-
-  /// The texture that a material refers to; none where its picture is missing or no PNG or JPEG.
-  std::optional<std::uint32_t> readTexture(const Json& info, const std::string& place) {
-    const auto texture = in_.index(info, "index", place + ".baseColorTexture");
-    if (!texture) in_.fail(place + ".baseColorTexture.index is missing");
-    const std::string at = "textures[" + std::to_string(*texture) + "]";
-    const auto image = in_.index(in_.element("textures", *texture, place), "source", at);
-    if (!image) return std::nullopt;
-    const auto [found, added] = textureOf_.try_emplace(*image);
-    if (!added) return found->second;
-    std::optional<std::string> bytes = in_.image(*image, at);
-    const std::string mimeType = bytes ? imageMimeType(*bytes) : "";
-    if (mimeType.empty()) return std::nullopt;
-    found->second = static_cast<std::uint32_t>(mesh_.textures.size());
-    mesh_.textures.push_back({textureName(*image, mimeType), mimeType, std::move(*bytes)});
-    return found->second;
-  }
-
-  std::string textureName(std::uint64_t image, const std::string& mimeType) const {
-    const Json& json = in_.element("images", image, "a texture");
-    const std::string place = "images[" + std::to_string(image) + "]";
-    std::string base = in_.text(json, "name", place);
-    const std::string uri = in_.text(json, "uri", place);
-    if (base.empty() && !uri.starts_with("data:")) base = uri.substr(uri.find_last_of('/') + 1);
-    if (base.empty()) base = "texture" + std::to_string(image);
-    const std::string ending = mimeType == "image/png" ? ".png" : ".jpg";
-    if (!base.ends_with(ending) && !base.ends_with(".jpeg")) base += ending;
-    std::string unique = base;
-    const auto isTaken = [&] {
-      return std::any_of(mesh_.textures.begin(), mesh_.textures.end(),
-                         [&](const Texture& t) { return t.name == unique; });
-    };
-    for (int n = 2; isTaken(); ++n) unique = std::to_string(n) + "_" + base;
-    return unique;
+    return weights > 0 ? sum / weights : joints.front()(set.positions[v]);
   }
 
   GltfDocument in_;
   const MeshSource& source_;
   TriangleMesh mesh_;
+  GltfMaterials materials_;
   std::vector<Instance> instances_;
-  std::map<std::uint64_t, DecodedMesh> meshes_;
-  std::vector<bool> materialUsed_;
-  std::vector<TextureUse> textureUses_;
-  std::map<std::uint64_t, std::optional<std::uint32_t>> textureOf_;
+  /// By mesh, whether a skin moves it, and its weights.
+  std::map<std::tuple<std::uint64_t, bool, std::vector<double>>, DecodedMesh> meshes_;
+  std::vector<std::optional<Transform>> placed_;  // the nodes of the scene in world space
 };
 
 }  // namespace

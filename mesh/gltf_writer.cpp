@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
@@ -20,6 +21,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kNone = 0xffffffff;
 constexpr int kFloat = 5126, kUnsignedInt = 5125;
+/// Share of a mesh's size that rounding may move its vertices by.
+constexpr double kVisibleRounding = 1e-5;
 constexpr int kVertices = 34962, kIndices = 34963;
 
 void appendLittle(std::string& out, std::uint32_t value) {
@@ -92,10 +95,16 @@ class GlbWriter {
  public:
   /// Materials and textures are those of `mesh`, and so are the triangles where there are no parts.
   GlbWriter(const TriangleMesh& mesh, bool yUp, bool plain, const Progress& progress)
-      : mesh_(mesh), part_(&mesh), yUp_(yUp), plain_(plain), progress_(progress) {}
+      : mesh_(mesh), part_(&mesh), yUp_(yUp), plain_(plain), progress_(progress) {
+    // Floats are finest near 0: a mesh far from there is moved to it, and its nodes move it back.
+    if (floatRounding(mesh) > kVisibleRounding) offset_ = roundedCenter(boundingBox(mesh));
+  }
 
   std::string write() {
-    start(Json::array({{{"mesh", 0}}}));
+    Json node{{"mesh", 0}};
+    const Vec3d shift = toFileAxes(offset_, yUp_);
+    if (offset_ != Vec3d{}) node["translation"] = {shift.x, shift.y, shift.z};
+    start(Json::array({std::move(node)}));
     json_["meshes"] = Json::array({addPrimitives()});
     progress_.report("writing", 0.5);
     return finish();
@@ -110,7 +119,7 @@ class GlbWriter {
       if (meshOf[p.part] == kNone) {
         meshOf[p.part] = static_cast<std::uint32_t>(meshes_++);
       }
-      const Vec3d shift = toFileAxes(p.translation, yUp_);
+      const Vec3d shift = toFileAxes(p.translation + offset_, yUp_);
       nodes.push_back({{"mesh", meshOf[p.part]}, {"translation", {shift.x, shift.y, shift.z}}});
     }
     start(std::move(nodes));
@@ -171,6 +180,15 @@ class GlbWriter {
     return part;
   }
 
+  /// A mesh's middle, with few digits: a multiple of a power of two near its size.
+  static Vec3d roundedCenter(const Box3d& box) {
+    const Vec3d size = box.size();
+    const double step = std::exp2(std::round(std::log2(std::max({size.x, size.y, size.z}))));
+    Vec3d center = box.center();
+    for (int axis = 0; axis < 3; ++axis) center[axis] = std::round(center[axis] / step) * step;
+    return center;
+  }
+
   int endView(std::size_t begin, int target) {
     Json view{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", binary_.size() - begin}};
     if (target != 0) view["target"] = target;
@@ -196,7 +214,7 @@ class GlbWriter {
               std::numeric_limits<float>::max()};
     Vec3f high = -low;
     for (const std::uint32_t v : source) {
-      const Vec3f p = cast<float>(toFileAxes(part_->positions[v], yUp_));
+      const Vec3f p = cast<float>(toFileAxes(part_->positions[v] - offset_, yUp_));
       low = min(low, p);
       high = max(high, p);
       for (const float c : {p.x, p.y, p.z}) appendLittle(binary_, c);
@@ -366,6 +384,7 @@ class GlbWriter {
 
   const TriangleMesh& mesh_;
   const TriangleMesh* part_;  // what is being written: the mesh, or a part of it
+  Vec3d offset_{};            // world space: what is taken off positions and given to nodes
   bool yUp_;
   bool plain_;  // JSON alone rather than a binary container
   Progress progress_;

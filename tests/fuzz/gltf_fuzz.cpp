@@ -1,0 +1,19 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "fuzz_reader.h"
+#include "mesh/mesh_formats.h"
+
+namespace {
+void read(std::string_view bytes) {
+  // The file serves as its own buffer where it names one beside it.
+  exemplar::Warnings warnings;
+  const exemplar::MeshSource source{
+      .name = "f.gltf",
+      .sibling = [&](const std::string&) { return std::string(bytes); },
+      .warnings = &warnings};
+  exemplar::validate(exemplar::parseGltf(bytes, source), "f.gltf");
+}
+}  // namespace
+
+EXEMPLAR_FUZZ_READER(read)
