@@ -14,14 +14,6 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
-std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) {
-    parent[v] = parent[parent[v]];
-    v = parent[v];
-  }
-  return v;
-}
-
 template <class T>
 void keepOnly(std::vector<T>& items, std::span<const std::uint8_t> keep) {
   if (items.empty()) return;
@@ -104,6 +96,16 @@ std::vector<std::uint32_t> mateHalfedges(const Triangles& triangles, std::size_t
   return mates;
 }
 
+DisjointSets cornerFans(const std::vector<std::uint32_t>& mates) {
+  DisjointSets fans(mates.size());
+  for (std::uint32_t h = 0; h < mates.size(); ++h) {
+    if (mates[h] == kNone || mates[h] < h) continue;
+    fans.join(h, nextHalfedge(mates[h]));
+    fans.join(nextHalfedge(h), mates[h]);
+  }
+  return fans;
+}
+
 VertexCorners vertexCorners(const Triangles& triangles, std::size_t vertices) {
   VertexCorners result;
   result.begin.assign(vertices + 1, 0);
@@ -122,23 +124,12 @@ VertexCorners vertexCorners(const Triangles& triangles, std::size_t vertices) {
 
 std::vector<std::uint32_t> vertexComponents(const Triangles& triangles, std::size_t vertices,
                                             std::uint32_t* count) {
-  std::vector<std::uint32_t> parent(vertices);
-  std::iota(parent.begin(), parent.end(), 0u);
+  DisjointSets parts(vertices);
   for (const auto& t : triangles) {
-    for (int c = 1; c < 3; ++c) {
-      // The lower root wins, so that a part is known by its lowest vertex.
-      const std::uint32_t a = findRoot(parent, t[0]), b = findRoot(parent, t[c]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    parts.join(t[0], t[1]);
+    parts.join(t[0], t[2]);
   }
-  std::vector<std::uint32_t> component(vertices);
-  std::uint32_t found = 0;
-  for (std::uint32_t v = 0; v < vertices; ++v) {
-    const std::uint32_t root = findRoot(parent, v);
-    component[v] = root == v ? found++ : component[root];
-  }
-  if (count) *count = found;
-  return component;
+  return parts.numbered(count);
 }
 
 void keepTriangles(TriangleMesh& mesh, std::span<const std::uint8_t> keep) {

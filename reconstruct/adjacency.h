@@ -10,11 +10,12 @@
 #include <span>
 #include <vector>
 
+#include "core/disjoint_sets.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
 
-/// Which triangle side stands opposite which: connectivity of indexed triangles without a halfedge
+/// Which triangle side is opposite which: connectivity of indexed triangles without a halfedge
 /// mesh, for any soup. Halfedge 3 t + c runs from corner c of triangle t to its next corner.
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -50,6 +51,10 @@ EdgeGroups edgeGroups(const Triangles& triangles, std::size_t vertices);
 /// in opposite directions; `kNone` for all others.
 std::vector<std::uint32_t> mateHalfedges(const Triangles& triangles, std::size_t vertices);
 
+/// The corners (3 t + c) that are joined across the edges between mates: each set is one fan of
+/// triangles around a vertex.
+DisjointSets cornerFans(const std::vector<std::uint32_t>& mates);
+
 /// The corners (3 t + c) at each vertex, ascending: vertex v's are [begin[v], begin[v + 1]).
 struct VertexCorners {
   std::vector<std::uint32_t> corners, begin;
@@ -71,10 +76,16 @@ void keepTriangles(TriangleMesh& mesh, std::span<const std::uint8_t> keep);
 
 /// Cuts triangle `t` at those of its sides that have a new vertex, `middle[c]` on the side from
 /// corner c to the next (`kNone`: none): the first piece takes its place, the others, one a new
-/// vertex, are added at the end, with its material; texture coordinates as for vertices half way.
+/// vertex, are added at the end, with its material; texture coordinates as for vertices halfway.
 void cutTriangle(TriangleMesh& mesh, std::uint32_t t, const std::array<std::uint32_t, 3>& middle);
 
-/// The sum of the triangles' area normals at each vertex, not normalised.
+/// The mean of a triangle's corners.
+inline Vec3d triangleMiddle(const TriangleMesh& mesh, std::size_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
+}
+
+/// The sum of the triangles' area normals at each vertex, not normalized.
 std::vector<Vec3d> vertexNormals(const TriangleMesh& mesh, const VertexCorners& corners);
 
 }  // namespace exemplar

@@ -13,14 +13,16 @@
 #include <tuple>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
 #include "reconstruct/manifold.h"
-#include "core/origin.h"
 #include "reconstruct/pull.h"
 #include "reconstruct/smooth.h"
 #include "reconstruct/stitch.h"
+#include "sdf/loop_progress.h"
 
 namespace exemplar {
 namespace {
@@ -32,6 +34,8 @@ constexpr double kSame = 1e-5;
 /// Relaxing moves no vertex farther than this, voxels.
 constexpr double kFarthest = 0.5;
 
+constexpr const char* kStage = "copying triangles";
+
 /// A corner of a piece of an example triangle: where, in the example's index space, and its
 /// barycentric weights.
 struct PieceCorner {
@@ -39,11 +43,6 @@ struct PieceCorner {
   std::array<double, 3> weights;
 };
 using Piece = std::vector<PieceCorner>;
-
-/// A box of example cells, both ends included.
-struct CellBox {
-  Vec3i low, high;
-};
 
 /// The part of a convex polygon on one side of a plane across `axis`.
 Piece clipped(const Piece& piece, int axis, double plane, bool below) {
@@ -80,7 +79,7 @@ double area(const Piece& piece) {
   return length(sum) / 2;
 }
 
-/// The cell a place lies in; the one above on a border, unless that is outside.
+/// The cell that a place is in; the one above on a border, unless that is outside.
 int cellAlong(double x, int size) {
   return std::clamp(static_cast<int>(std::floor(x + 0.5)), 0, size - 1);
 }
@@ -94,9 +93,9 @@ CellBox cellsOf(const Piece& piece, const Vec3i& size) {
       low = std::min(low, c.at[a]);
       high = std::max(high, c.at[a]);
     }
-    box.low[a] = cellAlong(low, size[a]);
+    box.begin[a] = cellAlong(low, size[a]);
     // A corner that only touches the next cell from below does not reach into it.
-    box.high[a] = std::max(box.low[a], cellAlong(std::nextafter(high, low), size[a]));
+    box.end[a] = std::max(box.begin[a], cellAlong(std::nextafter(high, low), size[a])) + 1;
   }
   return box;
 }
@@ -107,14 +106,13 @@ CellBox cellsOf(const Piece& piece, const Vec3i& size) {
 template <class Inside>
 bool takeInside(const Piece& piece, const CellBox& box, const Inside& inside,
                 std::vector<Piece>& out) {
-  Vec3i extent = box.high - box.low;
-  if (extent == Vec3i{0, 0, 0}) return inside(box.low);
+  const Vec3i extent = box.size();
+  if (extent == Vec3i{1, 1, 1}) return inside(box.begin);
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-  const int middle = box.low[axis] + extent[axis] / 2;
+  const int middle = box.begin[axis] + (extent[axis] - 1) / 2;
   const double plane = middle + 0.5;
   CellBox lower = box, upper = box;
-  lower.high[axis] = middle;
-  upper.low[axis] = middle + 1;
+  lower.end[axis] = upper.begin[axis] = middle + 1;
   Piece below = clipped(piece, axis, plane, true), above = clipped(piece, axis, plane, false);
   // What lies in the border belongs above, as in `cellAlong`.
   const bool hasBelow = below.size() >= 3 && area(below) > 0;
@@ -161,29 +159,25 @@ struct CellTriangles {
   std::vector<std::uint32_t> begin, triangles;
 };
 
-CellTriangles binTriangles(const ExampleView& example) {
+CellTriangles binTriangles(const ExampleView& example, const Progress& progress) {
   const Vec3i size = example.field.size();
   const std::size_t count = example.mesh.triangles.size();
   // A triangle passes a cell by where its plane does.
   std::vector<std::vector<std::uint32_t>> cells(count);
   parallelFor(0, count, 64, [&](std::size_t t0, std::size_t t1) {
     for (std::size_t t = t0; t < t1; ++t) {
+      progress.check();
       const Piece piece = examplePiece(example.mesh, example.field, t);
       if (piece.empty()) continue;
       const CellBox box = cellsOf(piece, size);
       const Vec3d normal = areaNormal(example.mesh, t);
       const double reach =
           (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) * (0.5 + 1e-5);
-      for (int k = box.low.z; k <= box.high.z; ++k) {
-        for (int j = box.low.y; j <= box.high.y; ++j) {
-          for (int i = box.low.x; i <= box.high.x; ++i) {
-            const Vec3d center = cast<double>(Vec3i{i, j, k});
-            if (std::abs(dot(normal, center - piece[0].at)) <= reach) {
-              cells[t].push_back(static_cast<std::uint32_t>(example.field.values.index(i, j, k)));
-            }
-          }
+      forEachCell(box, [&](const Vec3i& cell) {
+        if (std::abs(dot(normal, cast<double>(cell) - piece[0].at)) <= reach) {
+          cells[t].push_back(static_cast<std::uint32_t>(example.field.values.index(cell)));
         }
-      }
+      });
     }
   });
   CellTriangles bins;
@@ -216,9 +210,11 @@ struct Copies {
   std::vector<Copy> copies;
 };
 
-Copies collectCopies(const Origins& origins, std::span<const ExampleView> examples) {
+Copies collectCopies(const Origins& origins, std::span<const ExampleView> examples,
+                     const Progress& progress) {
   std::vector<CellTriangles> bins;
-  for (const ExampleView& example : examples) bins.push_back(binTriangles(example));
+  for (const ExampleView& example : examples) bins.push_back(binTriangles(example, progress));
+  progress.report(kStage, 0.3);
   const auto cellBin = [&](const Origin& o) {
     const Vec3i cell = examples[o.example].field.values.clamped(o.cell());
     return examples[o.example].field.values.index(cell);
@@ -239,6 +235,7 @@ Copies collectCopies(const Origins& origins, std::span<const ExampleView> exampl
     uses.push_back({OriginMotion(o, origins.ijk(c)), static_cast<std::uint32_t>(cell)});
   }
   tbb::parallel_sort(uses.begin(), uses.end());
+  progress.report(kStage, 0.6);
 
   Copies result;
   for (std::size_t n = 0; n < uses.size(); ++n) {
@@ -249,6 +246,7 @@ Copies collectCopies(const Origins& origins, std::span<const ExampleView> exampl
           {static_cast<std::uint32_t>(result.motions.size() - 1), bin.triangles[t]});
     }
   }
+  progress.report(kStage, 0.8);
   tbb::parallel_sort(result.copies.begin(), result.copies.end());
   result.copies.erase(std::unique(result.copies.begin(), result.copies.end()), result.copies.end());
   return result;
@@ -311,8 +309,7 @@ void addPiece(const Piece& piece, const OriginMotion& motion, const DistanceFiel
 void check(const DistanceField& field, const Origins& origins,
            std::span<const ExampleView> examples, const CopyTrianglesOptions& options) {
   if (!(options.weld >= 0 && options.weld <= 1)) {
-    throw InputError("weld: " + std::to_string(options.weld) +
-                     " voxels are out of range; 0 to 1 is right");
+    throw InputError("`weld` is " + std::to_string(options.weld) + "; it must be 0..1 voxels");
   }
   if (examples.empty()) throw InputError("no example is given to copy triangles from");
   for (const ExampleView& example : examples) validate(example.mesh, "example");
@@ -325,8 +322,8 @@ CopiedTriangles copyTriangles(const DistanceField& field, const Origins& origins
                               std::span<const ExampleView> examples,
                               const CopyTrianglesOptions& options, const Progress& progress) {
   check(field, origins, examples, options);
-  progress.report("copying triangles", 0);
-  const Copies copies = collectCopies(origins, examples);
+  progress.report(kStage, 0);
+  const Copies copies = collectCopies(origins, examples, progress.part(0, 0.2));
 
   // Pieces of about this many copies make one mesh each; these are joined in order.
   constexpr std::size_t kChunk = 512;
@@ -336,6 +333,7 @@ CopiedTriangles copyTriangles(const DistanceField& field, const Origins& origins
     std::int64_t whole = 0, cut = 0;
   };
   std::vector<Chunk> chunks((copies.copies.size() + kChunk - 1) / kChunk);
+  LoopProgress done(progress.part(0.2, 0.5), kStage, chunks.size());
   parallelFor(0, chunks.size(), 1, [&](std::size_t c0, std::size_t c1) {
     for (std::size_t c = c0; c < c1; ++c) {
       Chunk& chunk = chunks[c];
@@ -343,6 +341,7 @@ CopiedTriangles copyTriangles(const DistanceField& field, const Origins& origins
       chunk.part.resize(examples.size());
       const std::size_t end = std::min((c + 1) * kChunk, copies.copies.size());
       for (std::size_t n = c * kChunk; n < end; ++n) {
+        progress.check();
         const auto& [motionId, triangle] = copies.copies[n];
         const OriginMotion& motion = copies.motions[motionId];
         const ExampleView& example = examples[motion.example];
@@ -365,6 +364,7 @@ CopiedTriangles copyTriangles(const DistanceField& field, const Origins& origins
         for (const Piece& p : pieces) addPiece(p, motion, field, example.mesh, triangle, mesh);
         chunk.part[motion.example].resize(mesh.positions.size(), motionId);
       }
+      done.advance();
     }
   });
 
@@ -403,23 +403,24 @@ CopiedTriangles copyTriangles(const DistanceField& field, const Origins& origins
   if (result.mesh.triangles.empty()) {
     throw InputError(
         "no triangle was copied: the origins name only cells that the example's surface does not "
-        "run through; use a higher --resolution or another --seed");
+        "run through; use a higher `resolution` or another `seed`");
   }
   chunks.clear();
 
   progress.report("joining the copied parts", 0.5);
-  weldVertices(result.mesh, kSame * field.voxelSize, part);
-  if (options.weld > 0) stitchRims(result.mesh, options.weld * field.voxelSize, part);
+  weldVertices(result.mesh, kSame * field.voxelSize, part, progress);
+  progress.report("joining the copied parts", 0.6);
+  if (options.weld > 0) stitchRims(result.mesh, options.weld * field.voxelSize, part, progress);
   // Where several parts overlap, rims meet in edges of three and more triangles; nothing moves.
-  makeManifold(result.mesh, {.separation = 0, .repairDegenerate = false});
+  makeManifold(result.mesh, {.separation = 0, .repairDegenerate = false}, progress.part(0.7, 0.8));
   if (options.relax > 0) {
     progress.report("relaxing the seams", 0.8);
     SmoothOptions relax;
     relax.iterations = options.relax;
-    relax.weights = seamWeights(result.mesh, field, origins);
+    relax.weights = seamWeights(result.mesh, field, origins, 2, progress);
     relax.box = field.box();
     relax.most = kFarthest * field.voxelSize;
-    smooth(result.mesh, relax);
+    smooth(result.mesh, relax, progress.part(0.85, 0.95));
   }
   result.health = meshHealth(result.mesh);
   progress.report("triangles copied", 1);

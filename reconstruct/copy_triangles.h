@@ -16,7 +16,7 @@
 namespace exemplar {
 
 struct CopyTrianglesOptions {
-  /// Rims of neighbouring parts that are this near to each other are joined, voxels, 0..1.
+  /// Rims of neighboring parts that are this near to each other are joined, voxels, 0..1.
   double weld = 0.5;
   /// Smoothing steps at the seams (see `smooth`), 0..10000.
   int relax = 10;
@@ -36,17 +36,17 @@ struct CopiedTriangles {
 /// geometry using mesh relaxation."
 ///
 /// Every example triangle is copied to wherever the origins say that its cells went, cut at the
-/// borders of the copied part, with its material, colours and texture coordinates. Rims of
-/// neighbouring parts are joined where they nearly meet, and the seams relaxed.
+/// borders of the copied part, with its material, colors and texture coordinates. Rims of
+/// neighboring parts are joined where they nearly meet, and the seams relaxed.
 ///
 /// This keeps the example's triangles exactly, and its sharp edges; but copied parts rarely fit, so
-/// the result is open along seams and at the box, which `health` states. `fieldToMesh` gives closed
-/// surfaces. Differences from the paper: triangles are cut instead of taken whole, because a large
-/// one may cross many blocks, and only seams are smoothed, by a filter that does not shrink.
+/// the result is open along seams and at the box, which `health` reports. `fieldToMesh` gives
+/// closed surfaces. Differences from the paper: triangles are cut instead of taken whole, because a
+/// large one may cross many blocks, and only seams are smoothed, by a filter that does not shrink.
 ///
 /// O(p log p) for p pairs of a surface cell and a triangle in it. The same bytes at any number of
 /// threads. Throws `InputError` for options out of range, where origins and field do not match or
-/// name an example that is not there, and where no triangle was copied.
+/// name an example that is not given, and where no triangle was copied; and `Cancelled`.
 CopiedTriangles copyTriangles(const DistanceField& field, const Origins& origins,
                               std::span<const ExampleView> examples,
                               const CopyTrianglesOptions& options = {},

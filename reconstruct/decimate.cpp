@@ -54,9 +54,11 @@ class SurfaceDistance : public OpenMesh::Decimater::ModBaseT<HalfedgeMesh> {
   SurfaceDistance(const SurfaceDistance&) = delete;
   SurfaceDistance& operator=(const SurfaceDistance&) = delete;
 
-  void configure(double error, std::vector<std::uint8_t> held) {
+  void configure(double error, std::vector<std::uint8_t> held, const Progress& progress) {
     error_ = error;
     held_ = std::move(held);
+    progress_ = progress;
+    vertices_ = Base::mesh().n_vertices();
   }
 
   void initialize() override {
@@ -72,6 +74,7 @@ class SurfaceDistance : public OpenMesh::Decimater::ModBaseT<HalfedgeMesh> {
 
   float collapse_priority(const CollapseInfo& info) override {
     HalfedgeMesh& mesh = Base::mesh();
+    progress_.check();
     // What lies in a face of the box moves within it only.
     const std::uint8_t from = held_[info.v0.idx()], to = held_[info.v1.idx()];
     if ((from & to) != from) return Base::ILLEGAL_COLLAPSE;
@@ -103,6 +106,9 @@ class SurfaceDistance : public OpenMesh::Decimater::ModBaseT<HalfedgeMesh> {
 
   void postprocess_collapse(const CollapseInfo& info) override {
     Base::mesh().property(quadrics_, info.v1) += Base::mesh().property(quadrics_, info.v0);
+    if (++collapses_ % 4096 == 0) {
+      progress_.report("simplifying", double(collapses_) / double(vertices_));
+    }
   }
 
  private:
@@ -112,31 +118,34 @@ class SurfaceDistance : public OpenMesh::Decimater::ModBaseT<HalfedgeMesh> {
   }
 
   OpenMesh::VPropHandleT<Quadric> quadrics_;
+  Progress progress_;
+  std::size_t vertices_ = 0, collapses_ = 0;
   double error_ = 0;
   std::vector<std::uint8_t> held_;  // bits of the axes along which a vertex may not move
 };
 
 void check(const TriangleMesh& mesh, const DecimateOptions& options) {
   if (!(options.error >= 0)) {
-    throw InputError("decimation: an error of " + std::to_string(options.error) +
-                     " is out of range; 0 or more world units is right");
+    throw InputError("decimation: `error` is " + std::to_string(options.error) +
+                     "; it must be >= 0 world units");
   }
   if (options.triangles < 0) {
-    throw InputError("decimation: " + std::to_string(options.triangles) +
-                     " triangles are out of range; 0 or more is right");
+    throw InputError("decimation: `triangles` is " + std::to_string(options.triangles) +
+                     "; it must be >= 0");
   }
   if (mesh.hasColors() || mesh.hasUvs() || mesh.hasMaterials()) {
     throw InputError("decimation would lose materials; decimate first, then transfer them");
   }
   const MeshHealth health = meshHealth(mesh);
   if (!health.manifold() || !health.oriented()) {
-    throw InputError("decimation needs a manifold, oriented mesh; make it one first");
+    throw InputError("decimation needs a manifold, oriented mesh; call `makeManifold` first");
   }
 }
 
 }  // namespace
 
-void decimate(TriangleMesh& mesh, const DecimateOptions& options) {
+void decimate(TriangleMesh& mesh, const DecimateOptions& options, const Progress& progress) {
+  progress.report("simplifying", 0);
   check(mesh, options);
   HalfedgeMesh halfedges;
   halfedges.reserve(mesh.positions.size(), 3 * mesh.triangles.size() / 2, mesh.triangles.size());
@@ -151,6 +160,7 @@ void decimate(TriangleMesh& mesh, const DecimateOptions& options) {
       if (std::abs(p[a] - options.box->max[a]) <= near) held[v] |= std::uint8_t(1 << a);
     }
   }
+  progress.check();
   for (const auto& t : mesh.triangles) {
     const auto handle = [](std::uint32_t v) { return OpenMesh::VertexHandle(static_cast<int>(v)); };
     halfedges.add_face(handle(t[0]), handle(t[1]), handle(t[2]));
@@ -159,7 +169,7 @@ void decimate(TriangleMesh& mesh, const DecimateOptions& options) {
   OpenMesh::Decimater::DecimaterT<HalfedgeMesh> decimater(halfedges);
   SurfaceDistance::Handle distance;
   decimater.add(distance);
-  decimater.module(distance).configure(options.error, std::move(held));
+  decimater.module(distance).configure(options.error, std::move(held), progress.part(0.2, 0.95));
   decimater.initialize();
   decimater.decimate_to_faces(0, static_cast<std::size_t>(options.triangles));
   halfedges.garbage_collection();
@@ -177,6 +187,7 @@ void decimate(TriangleMesh& mesh, const DecimateOptions& options) {
     const auto c = static_cast<std::uint32_t>((++v)->idx());
     mesh.triangles.push_back({a, b, c});
   }
+  progress.report("simplifying", 1);
 }
 
 }  // namespace exemplar

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
@@ -26,7 +27,7 @@ struct DecimateOptions {
 ///
 /// For meshes without attributes that are manifold (`fieldToMesh` makes them so; it is what one
 /// does before `transferAppearance`). They stay closed and manifold. O(n log n). Throws
-/// `InputError` for options out of range and for meshes that carry attributes.
-void decimate(TriangleMesh& mesh, const DecimateOptions& options);
+/// `InputError` for options out of range and for meshes that carry attributes, and `Cancelled`.
+void decimate(TriangleMesh& mesh, const DecimateOptions& options, const Progress& progress = {});
 
 }  // namespace exemplar

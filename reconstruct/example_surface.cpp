@@ -3,206 +3,89 @@
 
 #include "reconstruct/example_surface.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
+#include <utility>
 
-#include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel.h"
 
 namespace exemplar {
-
 namespace {
-
-/// What a visit reads, side by side in memory: mostly the first of two cache lines only.
-struct alignas(64) ExampleTriangle {
-  Vec3d normal;
-  Vec3d center;      // of a ball that holds the triangle
-  double reach = 0;  // its radius
-  std::array<Vec3d, 3> corners;
-};
-
-}  // namespace
-
-struct ExampleSurface::Data {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  Vec3d center{};  // Embree's floats are relative to it
-  std::vector<ExampleTriangle> triangles;
-  double meanSide = 0;  // of the triangles
-
-  ~Data() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
-};
-
-namespace {
-
-/// Barycentric weights of the point of triangle a, b, c that is nearest to `p`: inside the face, or
-/// on the nearest side (Ericson, "Real-Time Collision Detection", 2005, section 5.1.5).
-std::array<double, 3> closestWeights(const Vec3d& p, const Vec3d& a, const Vec3d& b,
-                                     const Vec3d& c) {
-  const Vec3d ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const Vec3d bp = p - b;
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-    const double t = d1 - d3 > 0 ? d1 / (d1 - d3) : 0;
-    return {1 - t, t, 0};
-  }
-  const Vec3d cp = p - c;
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-    const double t = d2 - d6 > 0 ? d2 / (d2 - d6) : 0;
-    return {1 - t, 0, t};
-  }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double sum = (d4 - d3) + (d5 - d6), t = sum > 0 ? (d4 - d3) / sum : 0;
-    return {0, 1 - t, t};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// The circles that are looked at first: the radius of the first, in mean sides of triangles, by how
+
+std::vector<Corners> cornersOf(const TriangleMesh& mesh) {
+  requireMemory(220.0 * static_cast<double>(mesh.triangles.size()),
+                "looking up points on the example's surface",
+                "use an example with fewer triangles");
+  std::vector<Corners> corners(mesh.triangles.size());
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    corners[t] = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+  }
+  return corners;
+}
+
+// The spheres that are searched first: the radius of the first, in mean sides of triangles, by how
 // much each is wider than the one before, and how many.
 constexpr double kFirst = 0.2, kWider = 3;
-constexpr int kCircles = 4;
+constexpr int kSpheres = 4;
 
-/// What a running query knows; Embree hands it to `visit` with each triangle that is near enough.
-struct Search {
-  const std::vector<ExampleTriangle>& triangles;
-  const Vec3d& point;
-  const ClosestOptions& options;
-  double cost = kInfinity;
-  SurfacePoint best;
-};
-
-/// Floats in the tree are rounded: look a little further than the best so far, so that what is
-/// found does not depend on the order of the visits.
-float lookWithin(double distance) { return static_cast<float>(distance * (1 + 1e-5) + 1e-30); }
-
-bool visit(RTCPointQueryFunctionArguments* args) {
-  Search& search = *static_cast<Search*>(args->userPtr);
-  const ClosestOptions& options = search.options;
-  const std::uint32_t t = args->primID;
-  if (!options.groups.empty() && options.groups[t] != options.group) return false;
-  const ExampleTriangle& triangle = search.triangles[t];
-  const double turned = options.facingCost * (1 - dot(triangle.normal, options.facing)) / 2;
-  if (turned > search.cost) return false;
-  // Most are too far by the ball around them already; a hair more, for what rounding takes.
-  const Vec3d away = search.point - triangle.center;
-  const double far = (std::min(search.cost - turned, options.radius) + triangle.reach) * (1 + 1e-9);
-  if (dot(away, away) > far * far) return false;
-  const auto& [a, b, c] = triangle.corners;
-  const auto weights = closestWeights(search.point, a, b, c);
-  const Vec3d position = a * weights[0] + b * weights[1] + c * weights[2];
-  const double distance = length(position - search.point);
-  if (distance > options.radius) return false;
-  const double cost = distance + turned;
-  if (cost > search.cost || (cost == search.cost && t >= search.best.triangle)) return false;
-  search.cost = cost;
-  search.best = {t, weights, position, distance};
-  const float within = lookWithin(std::min(cost, options.radius));
-  if (!(within < args->query->radius)) return false;
-  args->query->radius = within;
-  return true;
+/// The square of a little more than `distance`: triangles at the same cost must be seen, whatever
+/// rounding took, for the lowest to be chosen.
+double lookWithin2(double distance) {
+  const double within = distance * (1 + 1e-5) + 1e-30;
+  return within * within;
 }
 
 }  // namespace
 
-ExampleSurface::ExampleSurface(const TriangleMesh& mesh) : data_(std::make_unique<Data>()) {
-  requireMemory(330.0 * static_cast<double>(mesh.triangles.size()),
-                "looking up the example's surface", "use an example with fewer triangles");
-  const Box3d box = boundingBox(mesh);
-  data_->center = box.empty() ? Vec3d{} : box.center();
-  data_->triangles.resize(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    ExampleTriangle& triangle = data_->triangles[t];
-    triangle.corners = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
-    triangle.normal = normalized(areaNormal(mesh, t));
-    triangle.center = (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0;
-    for (const Vec3d& corner : triangle.corners) {
-      triangle.reach = std::max(triangle.reach, length(corner - triangle.center));
-    }
+ExampleSurface::ExampleSurface(const TriangleMesh& mesh, const Progress& progress)
+    : tree_(cornersOf(mesh), progress, TriangleTree::Answers::Near),
+      normals_(mesh.triangles.size()) {
+  for (const auto& [a, b, c] : mesh.triangles) {
+    meanSide_ += length(mesh.positions[b] - mesh.positions[a]) / double(mesh.triangles.size());
   }
-
-  for (const ExampleTriangle& t : data_->triangles) {
-    data_->meanSide += length(t.corners[1] - t.corners[0]) / double(data_->triangles.size());
-  }
-
-  data_->device = rtcNewDevice(nullptr);
-  if (!data_->device) {
-    throw std::runtime_error("Embree cannot start: error " +
-                             std::to_string(rtcGetDeviceError(nullptr)));
-  }
-  data_->scene = rtcNewScene(data_->device);
-  RTCGeometry geometry = rtcNewGeometry(data_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* points = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              3 * sizeof(float), std::max<std::size_t>(1, mesh.positions.size())));
-  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-      std::max<std::size_t>(1, mesh.triangles.size())));
-  if (!points || !indices) {
-    rtcReleaseGeometry(geometry);
-    throw InputError("the example's surface does not fit in memory; use one with fewer triangles");
-  }
-  for (const Vec3d& p : mesh.positions) {
-    for (int a = 0; a < 3; ++a) *points++ = static_cast<float>(p[a] - data_->center[a]);
-  }
-  for (const auto& t : mesh.triangles) {
-    for (const std::uint32_t v : t) *indices++ = v;
-  }
-  rtcSetGeometryPointQueryFunction(geometry, visit);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(data_->scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(data_->scene);
+  parallelFor(0, normals_.size(), 1 << 14, [&](std::size_t t0, std::size_t t1) {
+    for (std::size_t t = t0; t < t1; ++t) normals_[t] = normalized(areaNormal(mesh, t));
+  });
 }
-
-ExampleSurface::~ExampleSurface() = default;
-ExampleSurface::ExampleSurface(ExampleSurface&&) noexcept = default;
-ExampleSurface& ExampleSurface::operator=(ExampleSurface&&) noexcept = default;
 
 std::optional<SurfacePoint> ExampleSurface::closest(const Vec3d& point,
                                                     const ClosestOptions& options) const {
-  // Small circles first: they hold few triangles, and mostly the nearest one. What lies beyond a
-  // circle costs more than its radius.
-  double radius = kFirst * data_->meanSide;
-  for (int circle = 0;; ++circle, radius *= kWider) {
-    const bool last = circle == kCircles || !(radius < options.radius);
-    ClosestOptions within = options;
-    if (!last) within.radius = radius;
-    Search search{data_->triangles, point, within, kInfinity, {}};
-    RTCPointQuery query;
-    query.x = static_cast<float>(point.x - data_->center.x);
-    query.y = static_cast<float>(point.y - data_->center.y);
-    query.z = static_cast<float>(point.z - data_->center.z);
-    query.time = 0;
-    query.radius = lookWithin(within.radius);
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(data_->scene, &query, &context, nullptr, &search);
-    if (search.cost < radius || (last && search.cost < kInfinity)) return search.best;
-    if (last) return std::nullopt;
+  double best = kInfinity, radius = options.radius;
+  SurfacePoint found;
+  const auto visit = [&](std::uint32_t t, const Corners& corners, double within2) {
+    if (!options.groups.empty() && options.groups[t] != options.group) return within2;
+    const auto [weights, offset] = closestPoint(point, corners);
+    if (dot(offset, offset) > within2) return within2;
+    const Vec3d position =
+        corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+    const double distance = length(position - point);
+    if (distance > radius) return within2;
+    const double turned = options.facingCost == 0
+                              ? 0
+                              : options.facingCost * (1 - dot(normals_[t], options.facing)) / 2;
+    const double cost = distance + turned;
+    if (cost > best || (cost == best && t >= found.triangle)) return within2;
+    best = cost;
+    found = {t, weights, position, distance};
+    return std::min(within2, lookWithin2(cost));
+  };
+  // Small spheres first: they hold few triangles, and mostly the nearest one. What lies beyond a
+  // sphere costs more than its radius.
+  double sphere = kFirst * meanSide_;
+  for (int n = 0; n < kSpheres && sphere < options.radius; ++n, sphere *= kWider) {
+    radius = sphere;
+    tree_.visitNear(point, lookWithin2(radius), visit);
+    if (best < radius) return found;
+    best = kInfinity;
   }
-}
-
-const Vec3d& ExampleSurface::normal(std::uint32_t triangle) const {
-  return data_->triangles[triangle].normal;
+  radius = options.radius;
+  tree_.visitNear(point, lookWithin2(radius), visit);
+  if (best == kInfinity) return std::nullopt;
+  return found;
 }
 
 }  // namespace exemplar

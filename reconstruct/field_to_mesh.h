@@ -3,9 +3,10 @@
 
 #pragma once
 
-#include <array>
 #include <cstdint>
 
+#include "core/axes.h"
+#include "core/progress.h"
 #include "mesh/mesh_health.h"
 #include "mesh/triangle_mesh.h"
 #include "reconstruct/manifold.h"
@@ -17,23 +18,20 @@ struct FieldToMeshOptions {
   /// Close the surface where the field's box cuts it, flat and with sharp rims; else it ends open
   /// there.
   bool close = true;
-  /// Along which axes the field goes round, its last sample beside its first: there the surface
-  /// ends open at both faces of the box, and alike, so that copies put side by side join. Where the
-  /// surface runs along such a face, it has the upper face's part only.
-  std::array<bool, 3> wraps{};
-  /// Make the field a signed distance again before contouring (`redistance`): a synthesized one
-  /// jumps where two copied parts meet, and a jump misplaces the surface between two samples.
+  /// The axes along which the field is periodic, its last sample beside its first: there the
+  /// surface ends open at both faces of the box, and alike, so that copies placed side by side
+  /// join. Where the surface runs along such a face, it has the upper face's part only.
+  Axes wraps;
+  /// Correct the field around jumps before contouring (`redistanceJumps`): a synthesized one jumps
+  /// where two copied parts meet, and a jump misplaces the surface between two samples.
   bool redistance = true;
   /// Draw each vertex from the middle of its cell's crossings onto the field's zero, so that thin
   /// and round things keep their volume.
   bool project = true;
-  /// How much surface that is nearly flat is merged, 0 (nothing, even triangles of the voxel's
-  /// size) to 1. Meant for quick small meshes; `decimate` gives better ones.
-  double adaptivity = 0;
   /// Closed parts, and closed hollows, smaller than this many voxels are dropped unless they touch
   /// the box; 0 keeps everything.
   double smallestPiece = 8;
-  /// Whether the report tells how sound the surface is, which takes a tenth of the time.
+  /// Whether the report says how sound the surface is, which takes a tenth of the time.
   bool checkHealth = true;
 };
 
@@ -42,7 +40,6 @@ struct FieldToMeshReport {
   MeshHealth health;  ///< with `checkHealth`
   ManifoldReport manifold;
   std::int64_t droppedPieces = 0;  ///< parts below `smallestPiece`
-  bool uniform = true;             ///< false where `adaptivity` was at work in the end
 };
 
 /// The surface φ = 0 as triangles (Lagae 2004, section 5.3), by OpenVDB's dual contouring of the
@@ -51,13 +48,12 @@ struct FieldToMeshReport {
 /// The result winds anticlockwise seen from outside, has no triangle without area, every edge has
 /// two triangles and every vertex one fan, whatever the field holds (white noise, touching voxels);
 /// with `close` off, and where the field wraps, edges in the box's faces have one triangle.
-/// Positions are exact to about a tenth of a voxel where the field is a smooth distance. Where
-/// `adaptivity` cannot keep that promise, the field is contoured without it.
+/// Positions are exact to about a tenth of a voxel where the field is a smooth distance.
 ///
 /// O(n) for n samples; about 6 bytes a sample beyond the field. The same bytes at any number of
 /// threads. Throws `InputError` for options out of range, for samples that are not finite and for a
-/// field without surface, saying what would give one.
+/// field without surface, saying what would give one; and `Cancelled`.
 TriangleMesh fieldToMesh(const DistanceField& field, const FieldToMeshOptions& options = {},
-                         FieldToMeshReport* report = nullptr);
+                         const Progress& progress = {}, FieldToMeshReport* report = nullptr);
 
 }  // namespace exemplar

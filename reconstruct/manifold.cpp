@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
 
@@ -152,32 +153,14 @@ std::vector<std::uint32_t> sharedEdges(const EdgeGroups& groups,
 /// Gives each fan of triangles a vertex of its own; marks all vertices that were one before.
 void splitVertices(TriangleMesh& mesh, const std::vector<std::uint32_t>& mates,
                    std::vector<std::uint8_t>& touched, ManifoldReport& report) {
-  std::vector<std::uint32_t> parent(mates.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t c) {
-    while (parent[c] != c) {
-      parent[c] = parent[parent[c]];
-      c = parent[c];
-    }
-    return c;
-  };
-  const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent[std::max(a, b)] = std::min(a, b);
-  };
-  for (std::uint32_t h = 0; h < mates.size(); ++h) {
-    if (mates[h] == kNone || mates[h] < h) continue;
-    join(h, nextHalfedge(mates[h]));
-    join(nextHalfedge(h), mates[h]);
-  }
+  DisjointSets fans = cornerFans(mates);
 
   std::vector<std::uint32_t> firstFan(mesh.positions.size(), kNone);
   std::vector<std::uint32_t> vertexOfFan(mates.size(), kNone);
   touched.assign(mesh.positions.size(), 0);
   for (std::uint32_t c = 0; c < mates.size(); ++c) {
     std::uint32_t& v = mesh.triangles[c / 3][c % 3];
-    const std::uint32_t fan = root(c);
+    const std::uint32_t fan = fans.find(c);
     if (vertexOfFan[fan] == kNone) {
       if (firstFan[v] == kNone) {
         firstFan[v] = fan;
@@ -248,7 +231,7 @@ Vec3d ringCenter(const TriangleMesh& mesh, const VertexCorners& corners, std::ui
   return at.empty() ? mesh.positions[v] : sum / (2.0 * static_cast<double>(at.size()));
 }
 
-/// Moves the chosen vertices a share of the way to the middle of their neighbours, all at once.
+/// Moves the chosen vertices a share of the way to the middle of their neighbors, all at once.
 void drawIn(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, double share) {
   const VertexCorners corners = vertexCorners(mesh.triangles, mesh.positions.size());
   std::vector<Vec3d> moved(vertices.size());
@@ -341,10 +324,11 @@ bool turnLongestSide(TriangleMesh& mesh, std::vector<std::uint32_t>& mates, std:
   return true;
 }
 
-void repairFlat(TriangleMesh& mesh, ManifoldReport& report) {
+void repairFlat(TriangleMesh& mesh, const Progress& progress, ManifoldReport& report) {
   std::vector<std::uint32_t> flat = flatTriangles(mesh);
   const auto found = static_cast<std::int64_t>(flat.size());
   for (int round = 0; round < 12 && !flat.empty(); ++round) {
+    progress.check();
     std::vector<std::uint32_t> mates = mateHalfedges(mesh.triangles, mesh.positions.size());
     std::vector<std::uint32_t> stubborn;
     for (const std::uint32_t t : flat) {
@@ -366,20 +350,28 @@ void repairFlat(TriangleMesh& mesh, ManifoldReport& report) {
 
 }  // namespace
 
-ManifoldReport makeManifold(TriangleMesh& mesh, const ManifoldOptions& options) {
+ManifoldReport makeManifold(TriangleMesh& mesh, const ManifoldOptions& options,
+                            const Progress& progress) {
   assert(options.separation >= 0 && options.separation <= 0.5);
+  const auto reportDone = [&](double fraction) {
+    progress.report("making the surface manifold", fraction);
+  };
   ManifoldReport report;
+  reportDone(0);
   removeEqualCorners(mesh, report);
   std::vector<std::uint32_t> mates, shared;
   {
     const EdgeGroups groups = removeFlaps(mesh, report);
+    reportDone(0.4);
     mates = pairHalfedges(mesh, groups);
     shared = sharedEdges(groups, mates);
   }
   report.boundaryEdges = std::count(mates.begin(), mates.end(), kNone);
+  reportDone(0.6);
   std::vector<std::uint8_t> touched;
   splitVertices(mesh, mates, touched, report);
   splitEdges(mesh, mates, std::move(shared), touched, report);
+  reportDone(0.8);
   if (options.separation > 0) {
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t v = 0; v < touched.size(); ++v) {
@@ -387,7 +379,8 @@ ManifoldReport makeManifold(TriangleMesh& mesh, const ManifoldOptions& options) 
     }
     if (!vertices.empty()) drawIn(mesh, vertices, options.separation);
   }
-  if (options.repairDegenerate) repairFlat(mesh, report);
+  if (options.repairDegenerate) repairFlat(mesh, progress, report);
+  reportDone(1);
   return report;
 }
 

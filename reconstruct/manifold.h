@@ -5,12 +5,13 @@
 
 #include <cstdint>
 
+#include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
 
 struct ManifoldOptions {
-  /// How far the copies of a split vertex are drawn apart, each towards its own neighbours: a share
+  /// How far the copies of a split vertex are drawn apart, each towards its own neighbors: a share
   /// of the way, 0..0.5. Above 0, sheets that touched in a vertex or along an edge come clear of
   /// each other, so that joining equal positions does not undo the split.
   double separation = 0;
@@ -39,7 +40,9 @@ struct ManifoldReport {
 /// triangles running one way as the other comes out closed. Pairs of triangles with the same
 /// corners and opposite winding enclose nothing and are removed. Attributes are kept.
 ///
-/// O(n log n) for n triangles; the same bytes at any number of threads.
-ManifoldReport makeManifold(TriangleMesh& mesh, const ManifoldOptions& options = {});
+/// O(n log n) for n triangles; the same bytes at any number of threads. Throws `Cancelled`; the
+/// mesh is then in an intermediate state.
+ManifoldReport makeManifold(TriangleMesh& mesh, const ManifoldOptions& options = {},
+                            const Progress& progress = {});
 
 }  // namespace exemplar

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
+#include "sdf/loop_progress.h"
 
 namespace exemplar {
 namespace {
@@ -40,25 +41,23 @@ std::vector<std::uint32_t> borderTriangles(const TriangleMesh& mesh) {
   return triangles;
 }
 
-Vec3d middleOf(const TriangleMesh& mesh, std::uint32_t t) {
-  const auto& [a, b, c] = mesh.triangles[t];
-  return (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
-}
-
 }  // namespace
 
-std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const MaterialAt& materialAt) {
+std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const MaterialAt& materialAt,
+                                              const Progress& progress) {
   const std::size_t before = mesh.triangles.size();
   std::vector<std::uint32_t> parent(before);
   std::iota(parent.begin(), parent.end(), 0u);
   const std::vector<std::uint32_t> zone = borderTriangles(mesh);
   std::vector<std::uint8_t> inZone(before, 0);
   std::vector<float> cuts(3 * before, kUncut);  // where each halfedge is cut, 0..1
+  LoopProgress done(progress, "cutting borders between materials", zone.size());
   parallelFor(0, zone.size(), 64, [&](std::size_t n0, std::size_t n1) {
     for (std::size_t n = n0; n < n1; ++n) {
+      done.advance();
       const std::uint32_t t = zone[n];
       inZone[t] = 1;
-      const Vec3d normal = normalized(areaNormal(mesh, t)), middle = middleOf(mesh, t);
+      const Vec3d normal = normalized(areaNormal(mesh, t)), middle = triangleMiddle(mesh, t);
       std::array<Vec3d, 3> p;
       std::array<std::uint32_t, 3> material;
       for (int c = 0; c < 3; ++c) {
@@ -118,10 +117,11 @@ std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const Material
     }
   }
   parallelFor(0, pieces.size(), 64, [&](std::size_t n0, std::size_t n1) {
+    progress.check();
     for (std::size_t n = n0; n < n1; ++n) {
       const std::uint32_t t = pieces[n];
       mesh.triangleMaterials[t] =
-          materialAt(middleOf(mesh, t), normalized(areaNormal(mesh, t)), parent[t]);
+          materialAt(triangleMiddle(mesh, t), normalized(areaNormal(mesh, t)), parent[t]);
     }
   });
   return parent;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/progress.h"
 #include "core/vec.h"
 #include "mesh/triangle_mesh.h"
 
@@ -19,15 +20,16 @@ using MaterialAt =
 
 /// Cuts triangles where the material changes inside them, so that borders between materials run
 /// where they are and not along the nearest triangle sides. `mesh` comes with a material for each
-/// triangle; near borders they are asked for anew.
+/// triangle; near borders they are looked up again.
 ///
-/// New vertices lie on the sides of triangles, and neighbours are cut alike: the surface stays as
+/// New vertices lie on the sides of triangles, and neighbors are cut alike: the surface stays as
 /// it is, closed where it was. Borders that pass a vertex at less than a tenth of a side go through
-/// it. The mesh has no vertex colours and texture coordinates yet. Returns, for each triangle,
-/// which one it was (part of). The same at any number of threads.
-std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const MaterialAt& materialAt);
+/// it. The mesh has no vertex colors and texture coordinates yet. Returns, for each triangle,
+/// which one it was (part of). The same at any number of threads. Throws `Cancelled`.
+std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const MaterialAt& materialAt,
+                                              const Progress& progress = {});
 
-/// Gives triangles with two neighbours of one other material that material, `rounds` times: single
+/// Gives triangles with two neighbors of one other material that material, `rounds` times: single
 /// triangles and teeth along the border between two materials go. Stripes that are two triangles
 /// wide stay. O(rounds n); the same at any number of threads.
 void cleanMaterialBorders(TriangleMesh& mesh, int rounds);

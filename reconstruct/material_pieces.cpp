@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/disjoint_sets.h"
+
 namespace exemplar {
 namespace {
 
@@ -33,7 +35,7 @@ void add(Weights& weights, std::uint32_t material, double weight) {
   weights.emplace_back(material, weight);
 }
 
-/// Pieces, or groups of them, with what they came with, what they have now, and their neighbours.
+/// Pieces, or groups of them, with what they came with, what they have now, and their neighbors.
 struct Graph {
   std::vector<Weights> came;
   std::vector<std::uint32_t> material;
@@ -74,7 +76,7 @@ struct Graph {
     }
   }
 
-  /// The neighbours' material that suits a node best, or its own.
+  /// The neighbors' material that suits a node best, or its own.
   std::uint32_t best(std::uint32_t node) const {
     Weights gain = came[node];  // of having each material, over having none of them
     for (std::uint32_t e = begin[node]; e < begin[node + 1]; ++e) {
@@ -120,23 +122,13 @@ struct Graph {
 
   /// Which group each node falls into, numbered by the groups' first nodes; returns how many.
   std::uint32_t groups(std::vector<std::uint32_t>& group) const {
-    std::vector<std::uint32_t> parent(count());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto find = [&](std::uint32_t n) {
-      while (parent[n] != n) n = parent[n] = parent[parent[n]];
-      return n;
-    };
+    DisjointSets sets(count());
     for (const MaterialJoint& joint : joints) {
       if (material[joint.a] != material[joint.b] || joint.cost < 0.5 * joint.length) continue;
-      const std::uint32_t a = find(joint.a), b = find(joint.b);
-      parent[std::max(a, b)] = std::min(a, b);
+      sets.join(joint.a, joint.b);
     }
-    group.resize(count());
     std::uint32_t found = 0;
-    for (std::uint32_t n = 0; n < count(); ++n) {
-      const std::uint32_t root = find(n);
-      group[n] = root == n ? found++ : group[root];
-    }
+    group = sets.numbered(&found);
     return found;
   }
 };

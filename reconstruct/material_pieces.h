@@ -25,7 +25,7 @@ struct MaterialJoint {
 /// Chooses the pieces' materials, so that materials change where that costs little: the sum of the
 /// weights of pieces with another material than their own, and of the costs of joints between
 /// different materials, is made small (a Potts model). First single pieces take the material of a
-/// neighbour, then what has grown together (joints with at least half of their length as cost) is
+/// neighbor, then what has grown together (joints with at least half of their length as cost) is
 /// moved as one, as long as that lowers the sum.
 ///
 /// Greedy: each step lowers the sum, the least possible sum is not promised. Sequential, about

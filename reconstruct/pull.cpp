@@ -7,9 +7,9 @@
 #include <cmath>
 #include <string>
 
+#include "core/cells.h"
 #include "core/error.h"
-#include "core/parallel.h"
-#include "reconstruct/dilate.h"
+#include "sdf/dilate.h"
 
 namespace exemplar {
 namespace {
@@ -22,18 +22,12 @@ constexpr double kCostScale = 0.35;
 constexpr double kWorse = 1;
 /// The samples that have one of another motion at most `reach` samples away along each axis.
 Array3D<std::uint8_t> nearOtherMotions(const Origins& origins, int reach) {
-  const Vec3i n = origins.size();
-  Array3D<std::uint8_t> marks(n);
-  parallelFor(0, n.z, 1, [&](std::size_t k0, std::size_t k1) {
-    for (int k = static_cast<int>(k0); k < static_cast<int>(k1); ++k) {
-      for (int j = 0; j < n.y; ++j) {
-        for (int i = 0; i < n.x; ++i) {
-          const OriginMotion own = motionAt(origins, {i, j, k});
-          marks(i, j, k) = (i + 1 < n.x && !(motionAt(origins, {i + 1, j, k}) == own)) ||
-                           (j + 1 < n.y && !(motionAt(origins, {i, j + 1, k}) == own)) ||
-                           (k + 1 < n.z && !(motionAt(origins, {i, j, k + 1}) == own));
-        }
-      }
+  Array3D<std::uint8_t> marks(origins.size());
+  parallelForEachCell(origins.size(), [&](const Vec3i& p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3i step{};
+      step[axis] = 1;
+      marks[p] |= origins.contains(p + step) && !continues(origins[p], origins[p + step], step);
     }
   });
   return dilated(std::move(marks), reach);
@@ -56,15 +50,17 @@ void checkOrigins(const DistanceField& field, const Origins& origins,
 }
 
 OriginPullView::OriginPullView(const DistanceField& field, const Origins& origins,
-                               std::span<const ExampleView> examples, double blend)
+                               std::span<const ExampleView> examples, double blend,
+                               const Progress& progress)
     : field_(field), origins_(origins), examples_(examples), reach_(blend + 0.5) {
   if (!(blend >= 0.5 && blend <= 4)) {
-    throw InputError("blend: " + std::to_string(blend) +
-                     " voxels are out of range; 0.5 to 4 is right");
+    throw InputError("`blend` is " + std::to_string(blend) + "; it must be 0.5..4 voxels");
   }
   checkOrigins(field, origins, examples);
   surfaces_.reserve(examples.size());
-  for (const ExampleView& example : examples) surfaces_.emplace_back(example.mesh);
+  for (const ExampleView& example : examples) {
+    surfaces_.emplace_back(example.mesh, progress);
+  }
   // A mark lies at the lower end of its step: one sample more to be seen from the upper end.
   mixed_ = nearOtherMotions(origins, static_cast<int>(std::ceil(reach_)) + 1);
 }

@@ -12,6 +12,7 @@
 
 #include "core/array3d.h"
 #include "core/origin.h"
+#include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 #include "reconstruct/example_surface.h"
 #include "reconstruct/transfer.h"
@@ -48,9 +49,10 @@ class OriginPullView {
  public:
   static constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 
-  /// `blend`: within how many voxels samples have a say.
+  /// `blend`: within how many voxels samples count. Throws `InputError`, and `Cancelled`.
   OriginPullView(const DistanceField& field, const Origins& origins,
-                 std::span<const ExampleView> examples, double blend);
+                 std::span<const ExampleView> examples, double blend,
+                 const Progress& progress = {});
 
   /// Where `position` (world) of the result, with unit normal `normal` or zero, may have come from;
   /// places farther than `radius` voxels from the example's surface do not count.

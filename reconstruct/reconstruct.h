@@ -18,31 +18,25 @@ namespace exemplar {
 /// One of the examples of a synthesis. What is borrowed outlives the call.
 struct ReconstructExample {
   const DistanceField& field;
-  const TriangleMesh* mesh = nullptr;  ///< none: nothing to take materials and colours from
+  const TriangleMesh* mesh = nullptr;  ///< none: nothing to take materials and colors from
 };
 
 struct ReconstructOptions {
-  /// How far from seams copied parts are blended into each other (`blendSeams`), voxels, 0.5..8; 0
-  /// for not at all.
-  double blend = 2;
   FieldToMeshOptions contour;
-  /// Smoothing steps at the seams of the surface (`smooth`), 0..10000.
-  int relax = 0;
-  /// Merge triangles that lie flat to within this many voxels (`decimate`), >= 0; 0 for not at all.
-  double simplify = 0;
   TransferOptions appearance;
 };
 
 struct Reconstruction {
   TriangleMesh mesh;
   MeshHealth health;
-  FieldToMeshReport contour;  ///< of the surface before all else; without its health
+  FieldToMeshReport contour;  ///< without its health
 };
 
-/// From what a synthesis returns to what leaves the program: blends the seams, contours, relaxes,
-/// simplifies, and takes materials, colours and textures from the examples where all of them have
-/// triangles. The result is closed (unless `contour.close` is off), manifold and oriented; `health`
-/// says so. The same bytes at any number of threads. Throws `InputError` as the steps do.
+/// From what a synthesis returns to what leaves the program: contours the field, and takes
+/// materials, colors and textures from the examples where all of them have triangles. The result is
+/// closed (unless `contour.close` is off or the field wraps), manifold and oriented; `health` says
+/// so. The same bytes at any number of threads. Throws `InputError` as the steps do, and
+/// `Cancelled`.
 Reconstruction reconstructSurface(const DistanceField& field, const Origins& origins,
                                   std::span<const ReconstructExample> examples,
                                   const ReconstructOptions& options = {},

@@ -11,10 +11,11 @@
 #include <numeric>
 #include <string>
 
+#include "core/cells.h"
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
-#include "core/origin.h"
 
 namespace exemplar {
 namespace {
@@ -37,29 +38,15 @@ struct Rings {
   std::vector<std::uint32_t> begin;
 };
 
-Rings buildRings(const TriangleMesh& mesh, const std::vector<std::uint32_t>& mates) {
+Rings buildRings(const TriangleMesh& mesh, const std::vector<std::uint32_t>& mates,
+                 const Progress& progress) {
   const Triangles& triangles = mesh.triangles;
-  std::vector<std::uint32_t> fan(mates.size());  // of each corner: its lowest corner
-  std::iota(fan.begin(), fan.end(), 0u);
-  const auto root = [&](std::uint32_t c) {
-    while (fan[c] != c) c = fan[c] = fan[fan[c]];
-    return c;
-  };
-  const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    fan[std::max(a, b)] = std::min(a, b);
-  };
-  for (std::uint32_t h = 0; h < mates.size(); ++h) {
-    if (mates[h] == kNone || mates[h] < h) continue;
-    join(h, nextHalfedge(mates[h]));
-    join(nextHalfedge(h), mates[h]);
-  }
+  DisjointSets fans = cornerFans(mates);
 
   Rings rings;
   rings.begin.assign(mesh.positions.size() + 1, 0);
   for (std::uint32_t c = 0; c < mates.size(); ++c) {
-    if (root(c) == c) ++rings.begin[fromVertex(triangles, c) + 1];
+    if (fans.find(c) == c) ++rings.begin[fromVertex(triangles, c) + 1];
   }
   std::partial_sum(rings.begin.begin(), rings.begin.end(), rings.begin.begin());
   std::vector<std::uint32_t> fill(rings.begin.begin(), rings.begin.end() - 1);
@@ -67,12 +54,13 @@ Rings buildRings(const TriangleMesh& mesh, const std::vector<std::uint32_t>& mat
   rings.mesh.reserve(rings.begin.back(), 3 * triangles.size() / 2, triangles.size());
   for (std::uint32_t n = 0; n < rings.begin.back(); ++n) rings.mesh.new_vertex();
   for (std::uint32_t c = 0; c < mates.size(); ++c) {
-    if (root(c) == c) vertexOfFan[c] = fill[fromVertex(triangles, c)]++;
+    if (fans.find(c) == c) vertexOfFan[c] = fill[fromVertex(triangles, c)]++;
   }
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    progress.check();
     std::array<OpenMesh::VertexHandle, 3> v;
     for (int c = 0; c < 3; ++c) {
-      v[c] = OpenMesh::VertexHandle(static_cast<int>(vertexOfFan[root(3 * t + c)]));
+      v[c] = OpenMesh::VertexHandle(static_cast<int>(vertexOfFan[fans.find(3 * t + c)]));
     }
     // Two sheets may share both ends of an edge; OpenMesh takes one of them.
     bool fits = v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
@@ -85,7 +73,7 @@ Rings buildRings(const TriangleMesh& mesh, const std::vector<std::uint32_t>& mat
   return rings;
 }
 
-/// From each vertex to the middle of its neighbours; of its rim neighbours only on an open rim.
+/// From each vertex to the middle of its neighbors; of its rim neighbors only on an open rim.
 std::vector<Vec3d> umbrellas(const Rings& rings, const std::vector<std::uint32_t>& vertexOfRing,
                              const std::vector<Vec3d>& positions) {
   std::vector<Vec3d> result(positions.size());
@@ -98,14 +86,14 @@ std::vector<Vec3d> umbrellas(const Rings& rings, const std::vector<std::uint32_t
         if (rings.mesh.is_isolated(handle)) continue;
         const bool rim = rings.mesh.is_boundary(handle);
         Vec3d ring{};
-        int neighbours = 0;
+        int neighbors = 0;
         for (auto h = rings.mesh.cvoh_iter(handle); h.is_valid(); ++h) {
           if (rim && !rings.mesh.is_boundary(rings.mesh.edge_handle(*h))) continue;
           ring += positions[vertexOfRing[rings.mesh.to_vertex_handle(*h).idx()]];
-          ++neighbours;
+          ++neighbors;
         }
-        if (neighbours == 0) continue;
-        sum += ring / neighbours - positions[v];
+        if (neighbors == 0) continue;
+        sum += ring / neighbors - positions[v];
         ++fans;
       }
       if (fans > 0) result[v] = sum / fans;
@@ -181,33 +169,34 @@ void restoreVolumes(TriangleMesh& mesh, const SmoothOptions& options,
 
 void check(const TriangleMesh& mesh, const SmoothOptions& options) {
   if (options.iterations < 0 || options.iterations > 10000) {
-    throw InputError("smoothing: " + std::to_string(options.iterations) +
-                     " iterations are out of range; 0 to 10000 is right");
+    throw InputError("smoothing: `iterations` is " + std::to_string(options.iterations) +
+                     "; it must be 0..10000");
   }
   if (!(options.strength >= 0 && options.strength <= 0.6)) {
-    throw InputError("smoothing: a strength of " + std::to_string(options.strength) +
-                     " is out of range; 0 to 0.6 is right");
+    throw InputError("smoothing: `strength` is " + std::to_string(options.strength) +
+                     "; it must be 0..0.6");
   }
   if (!(options.most >= 0)) {
-    throw InputError("smoothing: moves of " + std::to_string(options.most) +
-                     " are out of range; 0 or more world units is right");
+    throw InputError("smoothing: `most` is " + std::to_string(options.most) +
+                     "; it must be >= 0 world units");
   }
   if (!options.weights.empty() && options.weights.size() != mesh.positions.size()) {
     throw InputError("smoothing: " + std::to_string(options.weights.size()) + " weights for " +
                      std::to_string(mesh.positions.size()) +
-                     " vertices; one a vertex, or none, is right");
+                     " vertices; give one per vertex, or none");
   }
 }
 
 }  // namespace
 
-void smooth(TriangleMesh& mesh, const SmoothOptions& options) {
+void smooth(TriangleMesh& mesh, const SmoothOptions& options, const Progress& progress) {
   check(mesh, options);
   if (options.iterations == 0 || options.strength == 0 || mesh.triangles.empty()) return;
 
+  progress.report("smoothing", 0);
   const std::size_t vertices = mesh.positions.size();
   const std::vector<std::uint32_t> mates = mateHalfedges(mesh.triangles, vertices);
-  const Rings rings = buildRings(mesh, mates);
+  const Rings rings = buildRings(mesh, mates, progress);
   std::vector<std::uint32_t> vertexOfRing(rings.begin.back());
   for (std::uint32_t v = 0; v < vertices; ++v) {
     for (std::uint32_t n = rings.begin[v]; n < rings.begin[v + 1]; ++n) vertexOfRing[n] = v;
@@ -227,6 +216,7 @@ void smooth(TriangleMesh& mesh, const SmoothOptions& options) {
   const std::vector<Vec3d> before = mesh.positions;
   const double mu = 1 / (kPassBand - 1 / options.strength);
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
+    progress.report("smoothing", 0.3 + 0.6 * iteration / options.iterations);
     for (const double step : {options.strength, mu}) {
       const std::vector<Vec3d> moves = umbrellas(rings, vertexOfRing, mesh.positions);
       parallelFor(0, vertices, kGrain, [&](std::size_t v0, std::size_t v1) {
@@ -236,6 +226,7 @@ void smooth(TriangleMesh& mesh, const SmoothOptions& options) {
       });
     }
   }
+  progress.report("smoothing", 0.9);
   if (options.keepVolume) restoreVolumes(mesh, options, held, part, anchors, closed, wanted);
   parallelFor(0, vertices, kGrain, [&](std::size_t v0, std::size_t v1) {
     for (std::size_t v = v0; v < v1; ++v) {
@@ -244,13 +235,13 @@ void smooth(TriangleMesh& mesh, const SmoothOptions& options) {
       if (far > options.most) mesh.positions[v] = before[v] + move * (options.most / far);
     }
   });
+  progress.report("smoothing", 1);
 }
 
 std::vector<float> seamWeights(const TriangleMesh& mesh, const DistanceField& field,
-                               const Origins& origins, double width) {
+                               const Origins& origins, double width, const Progress& progress) {
   if (!(width > 0)) {
-    throw InputError("seams: a width of " + std::to_string(width) +
-                     " voxels is out of range; more than 0 is right");
+    throw InputError("seams: `width` is " + std::to_string(width) + "; it must be > 0 voxels");
   }
   if (origins.size() != field.size()) {
     throw InputError("the origins are not of the field's size; use those of the same synthesis");
@@ -259,6 +250,7 @@ std::vector<float> seamWeights(const TriangleMesh& mesh, const DistanceField& fi
   const double near = 1.5 * field.voxelSize, reach = width + 1;
   std::vector<float> weights(mesh.positions.size(), 0);
   parallelFor(0, weights.size(), kGrain, [&](std::size_t v0, std::size_t v1) {
+    progress.check();
     for (std::size_t v = v0; v < v1; ++v) {
       const Vec3d at = field.index(mesh.positions[v]);
       const Vec3i nearest = origins.clamped({static_cast<int>(std::floor(at.x + 0.5)),
@@ -269,15 +261,10 @@ std::vector<float> seamWeights(const TriangleMesh& mesh, const DistanceField& fi
       const Vec3i low = origins.clamped(nearest - Vec3i{r, r, r});
       const Vec3i high = origins.clamped(nearest + Vec3i{r, r, r});
       double closest = reach;
-      for (int k = low.z; k <= high.z; ++k) {
-        for (int j = low.y; j <= high.y; ++j) {
-          for (int i = low.x; i <= high.x; ++i) {
-            if (std::abs(field.values(i, j, k)) > near) continue;
-            if (motionAt(origins, {i, j, k}) == here) continue;
-            closest = std::min(closest, length(cast<double>(Vec3i{i, j, k}) - at));
-          }
-        }
-      }
+      forEachCell(CellBox{low, high + Vec3i{1, 1, 1}}, [&](const Vec3i& p) {
+        if (std::abs(field.values[p]) > near || motionAt(origins, p) == here) return;
+        closest = std::min(closest, length(cast<double>(p) - at));
+      });
       // The seam lies about half a voxel this side of the other part's sample.
       weights[v] = static_cast<float>(std::clamp(1 - (closest - 1) / width, 0.0, 1.0));
     }

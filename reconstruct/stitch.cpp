@@ -56,7 +56,7 @@ class PointGrid {
 };
 
 /// Gives every vertex the index `target` has for it; groups meet at the mean of their positions and
-/// colours.
+/// colors.
 void merge(TriangleMesh& mesh, const std::vector<std::uint32_t>& target,
            std::vector<std::uint32_t>& part) {
   const std::size_t vertices = mesh.positions.size();
@@ -110,13 +110,15 @@ std::vector<std::uint32_t> rimVertices(const TriangleMesh& mesh,
 }
 
 /// Joins rim vertices of different parts that are each other's nearest.
-bool joinNearest(TriangleMesh& mesh, double tolerance, std::vector<std::uint32_t>& part) {
+bool joinNearest(TriangleMesh& mesh, double tolerance, const Progress& progress,
+                 std::vector<std::uint32_t>& part) {
   const std::vector<std::uint32_t> rim =
       rimVertices(mesh, mateHalfedges(mesh.triangles, mesh.positions.size()));
   const PointGrid grid(mesh.positions, rim, tolerance);
   const Vec3d reach{tolerance, tolerance, tolerance};
   std::vector<std::uint32_t> nearest(mesh.positions.size(), kNone);
   for (const std::uint32_t v : rim) {
+    progress.check();
     double best = tolerance;
     const Vec3d& p = mesh.positions[v];
     grid.visitBox(p - reach, p + reach, [&](std::uint32_t w) {
@@ -141,13 +143,15 @@ bool joinNearest(TriangleMesh& mesh, double tolerance, std::vector<std::uint32_t
 }
 
 /// Rim edges take up rim vertices that lie on them. Returns whether there were any.
-bool takeUpVertices(TriangleMesh& mesh, double tolerance, const std::vector<std::uint32_t>& part) {
+bool takeUpVertices(TriangleMesh& mesh, double tolerance, const Progress& progress,
+                    const std::vector<std::uint32_t>& part) {
   const std::vector<std::uint32_t> mates = mateHalfedges(mesh.triangles, mesh.positions.size());
   const PointGrid grid(mesh.positions, rimVertices(mesh, mates), tolerance);
   const Vec3d reach{tolerance, tolerance, tolerance};
   bool any = false;
   const std::size_t count = mesh.triangles.size();
   for (std::uint32_t t = 0; t < count; ++t) {
+    progress.check();
     // One side of a triangle a round: the next round sees what remains.
     for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
       if (mates[h] != kNone) continue;
@@ -204,7 +208,8 @@ bool takeUpVertices(TriangleMesh& mesh, double tolerance, const std::vector<std:
 
 }  // namespace
 
-void weldVertices(TriangleMesh& mesh, double tolerance, std::vector<std::uint32_t>& part) {
+void weldVertices(TriangleMesh& mesh, double tolerance, std::vector<std::uint32_t>& part,
+                  const Progress& progress) {
   // Sweeping along x: candidates for each vertex are the ones before it within the tolerance.
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
   std::vector<std::uint32_t> all(vertices), target(vertices);
@@ -213,6 +218,7 @@ void weldVertices(TriangleMesh& mesh, double tolerance, std::vector<std::uint32_
   const PointGrid grid(mesh.positions, all, std::max(tolerance * 16, 1e-300));
   const Vec3d reach{tolerance, tolerance, tolerance};
   for (std::uint32_t v = 0; v < vertices; ++v) {
+    progress.check();
     const Vec3d& p = mesh.positions[v];
     std::uint32_t first = v;
     grid.visitBox(p - reach, p + reach, [&](std::uint32_t w) {
@@ -226,11 +232,12 @@ void weldVertices(TriangleMesh& mesh, double tolerance, std::vector<std::uint32_
   merge(mesh, target, part);
 }
 
-void stitchRims(TriangleMesh& mesh, double tolerance, std::vector<std::uint32_t>& part) {
+void stitchRims(TriangleMesh& mesh, double tolerance, std::vector<std::uint32_t>& part,
+                const Progress& progress) {
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
-    const bool joined = joinNearest(mesh, tolerance, part);
-    const bool taken = takeUpVertices(mesh, tolerance, part);
+    const bool joined = joinNearest(mesh, tolerance, progress, part);
+    const bool taken = takeUpVertices(mesh, tolerance, progress, part);
     if (!joined && !taken) break;
   }
 }

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
+#include "core/disjoint_sets.h"
 #include "mesh/color.h"
 #include "reconstruct/adjacency.h"
 
@@ -39,8 +39,8 @@ std::array<float, 4> texel(const Image8& image, int x, int y) {
   const std::uint8_t* p = image.at(x, y);
   const auto opacity = [&](int channel) { return static_cast<float>(p[channel]) / 255; };
   if (image.channels < 3) {
-    const float grey = srgb8ToLinear(p[0]);
-    return {grey, grey, grey, image.channels == 2 ? opacity(1) : 1.0f};
+    const float gray = srgb8ToLinear(p[0]);
+    return {gray, gray, gray, image.channels == 2 ? opacity(1) : 1.0f};
   }
   return {srgb8ToLinear(p[0]), srgb8ToLinear(p[1]), srgb8ToLinear(p[2]),
           image.channels == 4 ? opacity(3) : 1.0f};
@@ -67,26 +67,12 @@ std::vector<std::uint32_t> textureCharts(const TriangleMesh& mesh) {
   if (corners > 0) ++vertices;
 
   const EdgeGroups edges = edgeGroups(chartTriangles, vertices);
-  std::vector<std::uint32_t> parent(mesh.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
+  DisjointSets charts(mesh.triangles.size());
   for (std::size_t e = 0; e < edges.count(); ++e) {
     const auto group = edges.group(e);
-    for (const std::uint32_t h : group) {
-      const std::uint32_t a = root(group[0] / 3), b = root(h / 3);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (const std::uint32_t h : group) charts.join(group[0] / 3, h / 3);
   }
-  std::vector<std::uint32_t> chart(parent.size());
-  std::uint32_t found = 0;
-  for (std::uint32_t t = 0; t < chart.size(); ++t) {
-    const std::uint32_t r = root(t);
-    chart[t] = r == t ? found++ : chart[r];
-  }
-  return chart;
+  return charts.numbered();
 }
 
 Vec2f textureCoordinates(const TriangleMesh& mesh, std::uint32_t triangle,

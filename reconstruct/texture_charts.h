@@ -21,7 +21,7 @@ std::vector<std::uint32_t> textureCharts(const TriangleMesh& mesh);
 Vec2f textureCoordinates(const TriangleMesh& mesh, std::uint32_t triangle,
                          const std::array<double, 3>& weights);
 
-/// The base colour (linear RGBA) of a mesh's surface: its material's, times its texture's, times
+/// The base color (linear RGBA) of a mesh's surface: its material's, times its texture's, times
 /// its vertices'.
 class SurfaceColor {
  public:
@@ -35,7 +35,7 @@ class SurfaceColor {
   std::vector<Image8> images_;  ///< one a texture; empty for unused ones
 };
 
-/// The vertex colour alone; white where the mesh has none.
+/// The vertex color alone; white where the mesh has none.
 std::array<float, 4> vertexColor(const TriangleMesh& mesh, std::uint32_t triangle,
                                  const std::array<double, 3>& weights);
 

@@ -25,23 +25,23 @@ enum class TextureTransfer {
   Automatic,     ///< Coordinates where the example has a texture, else Drop
   Coordinates,   ///< texture coordinates: the texture's full detail, hard joints between copied
                  ///< parts
-  VertexColors,  ///< the texture's colour at each vertex, blended across joints: detail of a voxel
+  VertexColors,  ///< the texture's color at each vertex, blended across joints: detail of a voxel
   Drop,
 };
 
 struct TransferOptions {
   TextureTransfer textures = TextureTransfer::Automatic;
-  /// Colours of the parts that meet at a seam are mixed over this many voxels, 0.5..4.
+  /// Colors of the parts that meet at a seam are mixed over this many voxels, 0.5..4.
   double blend = 1.5;
   /// Cut triangles where the material changes inside them, so that borders are as sharp and
   /// straight as the example's; else they run along triangle sides. The surface stays as it is.
   bool cutBorders = true;
-  /// Rounds in which a triangle takes the material of most of its neighbours, 0..100: lone
+  /// Rounds in which a triangle takes the material of most of its neighbors, 0..100: lone
   /// triangles at seams go.
   int materialRounds = 2;
 };
 
-/// Gives `result`, the surface of `field`, the materials, vertex colours and textures of the
+/// Gives `result`, the surface of `field`, the materials, vertex colors and textures of the
 /// examples, pulled through the origins: a point of the result goes with the motion of a sample
 /// beside it into the example and takes what the nearest triangle there has. "Our algorithm could
 /// be extended to account for other signals present on the geometry, such as color information"
@@ -50,7 +50,7 @@ struct TransferOptions {
 /// Several motions meet at seams. Each counts the more, the nearer its sample is and the nearer the
 /// place it names is to the example's surface (a sample in the air can come from anywhere), and
 /// triangles that face the other way count as farther, so a thin wall keeps its two sides apart.
-/// Colours are the weighted mean; a material is the one with most weight, and borders between
+/// Colors are the weighted mean; a material is the one with most weight, and borders between
 /// materials are then cleaned. Texture coordinates come from the one best motion and stay inside
 /// one chart for each triangle, so nothing is smeared across the atlas.
 ///

@@ -15,7 +15,7 @@ namespace exemplar {
 /// makes it one again.
 struct DistanceField {
   Array3D<float> values;
-  double voxelSize = 1;  ///< distance of neighbouring samples, world units
+  double voxelSize = 1;  ///< distance of neighboring samples, world units
   Vec3d origin{};        ///< world position of sample (0, 0, 0)
   float truncation = 0;  ///< |values| <= truncation, world units; infinite for a full field
 

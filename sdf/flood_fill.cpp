@@ -14,7 +14,15 @@
 namespace exemplar {
 namespace {
 
-// The mesh as OpenVDB's mesh to volume asks for it.
+// How OpenVDB learns that it should stop.
+struct Interrupter : openvdb::util::NullInterrupter {
+  explicit Interrupter(const Progress& p) : progress(p) {}
+  bool wasInterrupted(int = -1) override { return progress.cancelled(); }
+
+  Progress progress;
+};
+
+// The mesh as OpenVDB's mesh to volume wants it.
 struct Adapter {
   std::span<const Corners> triangles;
 
@@ -29,7 +37,8 @@ struct Adapter {
 
 }  // namespace
 
-Array3D<std::uint8_t> floodedInside(std::span<const Corners> triangles, const Vec3i& size) {
+Array3D<std::uint8_t> floodedInside(std::span<const Corners> triangles, const Vec3i& size,
+                                    const Progress& progress) {
   Array3D<std::uint8_t> inside(size);
   if (triangles.empty()) return inside;
   double area = 0;
@@ -38,9 +47,11 @@ Array3D<std::uint8_t> floodedInside(std::span<const Corners> triangles, const Ve
   requireMemory(area * kBytesPerVoxelArea,
                 "flooding a surface of " + std::to_string(area) + " voxels",
                 "use a larger voxel size or another source of signs");
+  Interrupter interrupter(progress);
   const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-      Adapter{triangles}, openvdb::math::Transform(), 2.0f, 2.0f,
+      interrupter, Adapter{triangles}, openvdb::math::Transform(), 2.0f, 2.0f,
       openvdb::tools::DISABLE_RENORMALIZATION);
+  progress.check();
   parallelFor(0, static_cast<std::size_t>(size.z), 1, [&](std::size_t k0, std::size_t k1) {
     const auto accessor = grid->getConstUnsafeAccessor();
     for (auto k = static_cast<int>(k0); k < static_cast<int>(k1); ++k)

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "mesh/primitives.h"
+#include "sdf/loop_progress.h"
 #include "sdf/sample_distances.h"
 
 namespace exemplar {
@@ -24,23 +24,22 @@ void check(const HeightMap& map) {
       map.heights.size() != static_cast<std::size_t>(map.width) * map.height)
     throw InputError("a height map needs at least 2 x 2 points and a height for each");
   if (!(map.cellSize > 0 && map.cellSize < kInfinity))
-    throw InputError("the height map's cellSize is " + std::to_string(map.cellSize) +
+    throw InputError("the height map's `cellSize` is " + std::to_string(map.cellSize) +
                      "; it must be > 0");
   for (const float h : map.heights)
-    if (!std::isfinite(h))
-      throw InputError("the height map holds a height that is no finite number");
+    if (!std::isfinite(h)) throw InputError("the height map holds a height that is not finite");
 }
 
 void checkOptions(const HeightMapToSdfOptions& o) {
   const auto refuse = [](const std::string& what) { throw InputError(what); };
   if (!(o.voxelSize >= 0 && o.voxelSize < kInfinity))
-    refuse("voxelSize is " + std::to_string(o.voxelSize) +
-           "; it must be > 0, or 0 to use the resolution");
+    refuse("`voxelSize` is " + std::to_string(o.voxelSize) +
+           "; it must be > 0, or 0 to use `resolution`");
   if (o.voxelSize == 0 && (o.resolution < 1 || o.resolution > 4096))
-    refuse("resolution is " + std::to_string(o.resolution) + "; it must be 1..4096");
-  if (o.air < 0 || o.ground < 0) refuse("air and ground must be >= 0 voxels");
+    refuse("`resolution` is " + std::to_string(o.resolution) + "; it must be 1..4096");
+  if (o.air < 0 || o.ground < 0) refuse("`air` and `ground` must be >= 0 voxels");
   if (!(o.halfWidth > 0))
-    refuse("halfWidth is " + std::to_string(o.halfWidth) + "; it must be > 0 voxels");
+    refuse("`halfWidth` is " + std::to_string(o.halfWidth) + "; it must be > 0 voxels");
 }
 
 // The heights as a surface: points (c, r) from the smallest y, any integers c and r, mirrored at
@@ -115,20 +114,8 @@ Surface surfaceOf(const HeightMap& map, double voxelSize) {
 
 }  // namespace
 
-TriangleMesh heightMapToMesh(const HeightMap& map, double base) {
-  check(map);
-  if (!(base > 0 && base < kInfinity))
-    throw InputError("base is " + std::to_string(base) + "; it must be > 0");
-  std::vector<double> heights(map.heights.size());
-  for (int row = 0; row < map.height; ++row)
-    for (int column = 0; column < map.width; ++column)
-      heights[static_cast<std::size_t>(map.height - 1 - row) * map.width + column] =
-          map.at(column, row);
-  const double lowest = *std::min_element(heights.begin(), heights.end());
-  return makeHeightFieldSolid({}, map.cellSize, map.width, map.height, heights, lowest - base);
-}
-
-DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& options) {
+DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& options,
+                             const Progress& progress) {
   check(map);
   checkOptions(options);
   const auto [lowest, highest] = std::minmax_element(map.heights.begin(), map.heights.end());
@@ -147,13 +134,14 @@ DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& 
   requireMemory(size.x * size.y * size.z * 8,
                 "a distance field of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
                     " x " + std::to_string(size.z) + " samples",
-                "use a lower resolution or a larger voxel size");
+                "use a lower `resolution` or a larger `voxelSize`");
   DistanceField field;
   field.values = Array3D<float>(cast<int>(size));
   field.voxelSize = h;
   field.origin = {h / 2, h / 2, *lowest - (options.ground - 0.5) * h};
   field.truncation = static_cast<float>(options.halfWidth * h);
 
+  progress.report("reading the height map", 0);
   // No sample is farther from the surface than from the point straight above or below it, so
   // what is farther away than that to the side cannot be nearest.
   const Surface surface = surfaceOf(map, h);
@@ -165,17 +153,22 @@ DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& 
   const int endY = static_cast<int>(std::ceil(size.y * h / surface.cellY)) + marginY;
   std::vector<Corners> triangles;
   triangles.reserve(2 * static_cast<std::size_t>(endX + marginX) * (endY + marginY));
-  for (int r = -marginY; r < endY; ++r)
+  for (int r = -marginY; r < endY; ++r) {
+    progress.check();
     for (int c = -marginX; c < endX; ++c)
       for (Corners t : surface.cell(c, r)) {
         for (Vec3d& corner : t) corner = field.index(corner);
         triangles.push_back(t);
       }
-  sampleDistances(TriangleTree(std::move(triangles)), options.halfWidth, {}, field.values);
+  }
+  progress.report("finding the surface", 0.1);
+  const TriangleTree tree(std::move(triangles), progress);
+  sampleDistances(tree, options.halfWidth, {}, field.values, progress.part(0.2, 0.95));
 
   const Vec3i n = field.size();
   parallelFor(0, static_cast<std::size_t>(n.y), 1, [&](std::size_t j0, std::size_t j1) {
-    for (auto j = static_cast<int>(j0); j < static_cast<int>(j1); ++j)
+    for (auto j = static_cast<int>(j0); j < static_cast<int>(j1); ++j) {
+      progress.check();
       for (int i = 0; i < n.x; ++i) {
         const Vec3d foot = field.position({double(i), double(j), 0});
         const double top = surface.heightAt(foot.x, foot.y);
@@ -185,11 +178,13 @@ DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& 
           v = foot.z + k * h < top ? -d : d;
         }
       }
+    }
   });
+  progress.report("measuring distances", 1);
   return field;
 }
 
-HeightMap sdfToHeightMap(const DistanceField& field) {
+HeightMap sdfToHeightMap(const DistanceField& field, const Progress& progress) {
   const Vec3i n = field.size();
   HeightMap map;
   map.width = n.x;
@@ -197,7 +192,9 @@ HeightMap sdfToHeightMap(const DistanceField& field) {
   map.cellSize = field.voxelSize;
   map.heights.resize(static_cast<std::size_t>(n.x) * n.y);
   const Box3d box = field.box();
-  for (int j = 0; j < n.y; ++j)
+  progress.report("finding heights", 0);
+  LoopProgress rows(progress, "finding heights", static_cast<std::size_t>(n.y));
+  const auto findRow = [&](int j) {
     for (int i = 0; i < n.x; ++i) {
       double height = box.min.z;
       int k = n.z - 1;
@@ -210,6 +207,14 @@ HeightMap sdfToHeightMap(const DistanceField& field) {
       }
       map.heights[static_cast<std::size_t>(n.y - 1 - j) * n.x + i] = static_cast<float>(height);
     }
+  };
+  parallelFor(0, static_cast<std::size_t>(n.y), 1, [&](std::size_t j0, std::size_t j1) {
+    for (std::size_t j = j0; j < j1; ++j) {
+      findRow(static_cast<int>(j));
+      rows.advance();
+    }
+  });
+  progress.report("finding heights", 1);
   return map;
 }
 

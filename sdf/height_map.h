@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
 
@@ -16,7 +17,7 @@ namespace exemplar {
 struct HeightMap {
   int width = 0, height = 0;   ///< points along x and y
   std::vector<float> heights;  ///< world units, `heights[row * width + column]`
-  double cellSize = 1;         ///< distance of neighbouring points, world units
+  double cellSize = 1;         ///< distance between neighboring points, world units
 
   float at(int column, int row) const {
     return heights[static_cast<std::size_t>(row) * width + column];
@@ -24,9 +25,9 @@ struct HeightMap {
 };
 
 struct HeightMapFileOptions {
-  /// World distance of neighbouring points where the file does not say (.png, .pgm); > 0. By
+  /// World distance between neighboring points where the file does not say (.png, .pgm); > 0. By
   /// default the relief (highest less lowest point) becomes a fifth of the longer side, as in steep
-  /// mountains; say 30 for a map of 30 m cells whose steps are metres.
+  /// mountains; say 30 for a map of 30 m cells whose steps are meters.
   std::optional<double> cellSize;
   /// World height of one step of the file's integers (.png, .pgm); > 0.
   double heightScale = 1;
@@ -35,8 +36,8 @@ struct HeightMapFileOptions {
 /// Whether the path ends in `.png .pgm .asc`, in any case.
 bool isHeightMapFile(const std::filesystem::path& path);
 
-/// Reads 16- or 8-bit grey `.png`, `.pgm` (P2 and P5) or an ESRI `.asc` grid (NODATA cells are
-/// filled from their neighbours). Throws `InputError` naming the file for anything malformed or
+/// Reads 16- or 8-bit gray `.png`, `.pgm` (P2 and P5) or an ESRI `.asc` grid (NODATA cells are
+/// filled from their neighbors). Throws `InputError` naming the file for anything malformed or
 /// smaller than 2 x 2.
 HeightMap readHeightMap(const std::filesystem::path& path,
                         const HeightMapFileOptions& options = {});
@@ -45,10 +46,6 @@ HeightMap readHeightMap(const std::filesystem::path& path,
 /// to 0..65535. Whole or not at all.
 void writeHeightMap(const std::filesystem::path& path, const HeightMap& map,
                     const HeightMapFileOptions& options = {});
-
-/// A height map as a closed solid: its surface, walls along its border and a floor `base` world
-/// units below its lowest point (`base` > 0).
-TriangleMesh heightMapToMesh(const HeightMap& map, double base);
 
 struct HeightMapToSdfOptions {
   double voxelSize = 0;  ///< world units, > 0; 0 means: `resolution` decides
@@ -60,18 +57,21 @@ struct HeightMapToSdfOptions {
 };
 
 /// The signed distance of the ground under a height map, in world units without exaggeration: x
-/// from 0 to the map's width, y to its depth, z as the heights are. The ground goes on past the
-/// box's sides, mirrored at the map's border, and downwards: the field has no walls and no floor.
+/// from 0 to the map's width, y to its depth, z as the heights are. The ground continues past
+/// the box's sides, mirrored at the map's border, and downwards: the field has no walls and no
+/// floor.
 ///
-/// The surface is that of `heightMapToMesh`; maps with more than four points a voxel along an axis
+/// The surface is triangulated between the points, each cell along the diagonal whose ends differ
+/// less in height; maps with more than four points a voxel along an axis
 /// are averaged down to two to four first. The same bytes at any number of threads. Throws
-/// `InputError` for options out of range and fields that would not fit in memory.
-DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& options = {});
+/// `InputError` for options out of range and fields that would not fit in memory, and `Cancelled`.
+DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& options = {},
+                             const Progress& progress = {});
 
 /// The height, at each column of samples, of the topmost crossing from outside to inside, linearly
 /// between samples. Columns that are outside all the way have the height of the box's floor, those
 /// that are inside at the top the height of its ceiling. Within half a voxel of the height map that
-/// a field was made from where that is no steeper than the grid resolves.
-HeightMap sdfToHeightMap(const DistanceField& field);
+/// a field was made from where that is no steeper than the grid resolves. Throws `Cancelled`.
+HeightMap sdfToHeightMap(const DistanceField& field, const Progress& progress = {});
 
 }  // namespace exemplar

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -35,7 +36,7 @@ std::string text(double x) {
   return out.str();
 }
 
-// Where the samples stand.
+// Where the samples are.
 struct Frame {
   Vec3d origin;
   double voxelSize;
@@ -46,18 +47,19 @@ struct Frame {
 
 Frame frameFor(const TriangleMesh& mesh, const MeshToSdfOptions& options) {
   if (!(options.voxelSize >= 0 && options.voxelSize < kInfinity))
-    throw InputError("voxelSize is " + text(options.voxelSize) +
-                     "; it must be > 0, or 0 to use the resolution");
+    throw InputError("`voxelSize` is " + text(options.voxelSize) +
+                     "; it must be > 0, or 0 to use `resolution`");
   if (options.voxelSize == 0 && (options.resolution < 1 || options.resolution > 4096))
-    throw InputError("resolution is " + std::to_string(options.resolution) +
+    throw InputError("`resolution` is " + std::to_string(options.resolution) +
                      "; it must be 1..4096");
   if (options.padding < 0)
-    throw InputError("padding is " + std::to_string(options.padding) + "; it must be >= 0 voxels");
+    throw InputError("`padding` is " + std::to_string(options.padding) +
+                     "; it must be >= 0 voxels");
   if (!(options.halfWidth > 0))
-    throw InputError("halfWidth is " + text(options.halfWidth) + "; it must be > 0 voxels");
+    throw InputError("`halfWidth` is " + text(options.halfWidth) + "; it must be > 0 voxels");
   if (options.cutByBox && options.padding > 0)
-    throw InputError("cutByBox is on and padding is " + std::to_string(options.padding) +
-                     "; what lies beyond a cut is unknown: padding must be 0");
+    throw InputError("`cutByBox` is on and `padding` is " + std::to_string(options.padding) +
+                     "; what lies beyond a cut is unknown: `padding` must be 0");
   const Box3d box = options.box ? *options.box : boundingBox(mesh);
   if (box.empty() || !isFinite(box.min) || !isFinite(box.max))
     throw InputError(options.box ? "the box to sample is empty or not finite"
@@ -74,7 +76,7 @@ Frame frameFor(const TriangleMesh& mesh, const MeshToSdfOptions& options) {
   requireMemory(size.x * size.y * size.z * 12,
                 "a distance field of " + text(size.x) + " x " + text(size.y) + " x " +
                     text(size.z) + " samples",
-                "use a lower resolution or a larger voxel size");
+                "use a lower `resolution` or a larger `voxelSize`");
   const double start = h * (0.5 - options.padding);
   return {box.min + Vec3d{start, start, start}, h, cast<int>(size)};
 }
@@ -82,9 +84,10 @@ Frame frameFor(const TriangleMesh& mesh, const MeshToSdfOptions& options) {
 // The samples' distances in voxels from `surface`, up to `limit`. Where nothing bounds a solid
 // (sheets without thickness alone) and no limit is set, the distance is that to the far end of the
 // box.
-void measure(const TriangleTree& surface, double limit, Array3D<float>& distances) {
+void measure(const TriangleTree& surface, double limit, Array3D<float>& distances,
+             const Progress& progress) {
   if (surface.count() == 0) limit = std::min(limit, length(cast<double>(distances.size())));
-  sampleDistances(surface, limit, {}, distances);
+  sampleDistances(surface, limit, {}, distances, progress);
 }
 
 // What is left of triangles (in voxels, samples at whole numbers) without those in the box's faces.
@@ -102,7 +105,7 @@ std::vector<Corners> withoutCuts(std::vector<Corners> triangles, const Vec3i& si
   return triangles;
 }
 
-// Sets `inside` for a block of samples, at most 4 a side, that stand at low + ijk.
+// Sets `inside` for a block of samples, at most 4 a side, that are at low + ijk.
 template <class Test>
 void askAll(const Test& test, const Vec3i& low, const Vec3i& first, const Vec3i& end,
             Array3D<std::uint8_t>& inside) {
@@ -116,15 +119,16 @@ void askAll(const Test& test, const Vec3i& low, const Vec3i& first, const Vec3i&
 }
 
 // Sets `inside` from a test whose answer only changes across the surface that `distances` (exact
-// up to 2 voxels) are measured from. The test is slow, so few samples of each block are asked: one
-// of each set that hangs together by steps that nothing crosses, the farthest from the surface.
+// up to 2 voxels) are measured from. The test is slow, so few samples of each block are tested: one
+// of each set that is connected by steps that nothing crosses, the farthest from the surface.
 template <class Test>
-void spreadSigns(const Test& test, const Array3D<float>& distances, Array3D<std::uint8_t>& inside) {
+void spreadSigns(const Test& test, const Array3D<float>& distances, Array3D<std::uint8_t>& inside,
+                 const Progress& progress) {
   // A surface that crosses the step from one sample to the next is as near to both together as
   // the step is long. Half a voxel on top covers what cutting crossing triangles into pieces may
   // have lost.
   constexpr float kApart = 1.5f;
-  forBlocks(distances.size(), 4, [&](const Vec3i& low, const Vec3i& high) {
+  const auto spread = [&](const Vec3i& low, const Vec3i& high) {
     const Vec3i n = high - low;
     const int count = n.x * n.y * n.z;
     std::array<float, 64> distance;
@@ -165,31 +169,31 @@ void spreadSigns(const Test& test, const Array3D<float>& distances, Array3D<std:
     for (int k = low.z; k < high.z; ++k)
       for (int j = low.y; j < high.y; ++j)
         for (int i = low.x; i < high.x; ++i, ++s) inside(i, j, k) = in[place[leaderOf(s)]];
-  });
+  };
+  forBlocks(distances.size(), 4, progress, "finding signs", spread);
 }
 
 // The solid of a soup with openings: its sign has to be asked everywhere, and where it changes off
 // the triangles, the caps of the openings are part of the surface.
 void measureOpen(const SolidTest& solid, std::vector<Corners> triangles, double limit,
-                 Array3D<float>& distances, Array3D<std::uint8_t>& inside) {
+                 Array3D<float>& distances, Array3D<std::uint8_t>& inside,
+                 const Progress& progress) {
   // Caps beside the box count as well, as far as they matter to most bands.
   constexpr double kBeside = 4;
   const int pad = 1 + static_cast<int>(std::ceil(std::min(limit, kBeside)));
   const Vec3i low{-pad, -pad, -pad};
   const Vec3i size = distances.size() - low * 2;
   Array3D<std::uint8_t> in(size);
-  forBlocks(size, 4,
+  forBlocks(size, 4, progress.part(0, 0.4), "finding signs",
             [&](const Vec3i& first, const Vec3i& end) { askAll(solid, low, first, end, in); });
   {
     Array3D<float> near(size);
-    sampleDistances(TriangleTree(triangles), 2, low, near);
-    const std::vector<Corners> caps = openingCaps(solid, low, in, near);
+    sampleDistances(TriangleTree(triangles, progress), 2, low, near, progress.part(0.4, 0.6));
+    const std::vector<Corners> caps = openingCaps(solid, low, in, near, progress.part(0.6, 0.7));
     triangles.insert(triangles.end(), caps.begin(), caps.end());
   }
-  forBlocks(distances.size(), 8, [&](const Vec3i& first, const Vec3i& end) {
-    serpentine(first, end, [&](const Vec3i& ijk) { inside[ijk] = in[ijk - low]; });
-  });
-  measure(TriangleTree(std::move(triangles)), limit, distances);
+  parallelForEachCell(inside.size(), [&](const Vec3i& ijk) { inside[ijk] = in[ijk - low]; });
+  measure(TriangleTree(std::move(triangles), progress), limit, distances, progress.part(0.7, 1));
 }
 
 }  // namespace
@@ -198,44 +202,49 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
                         const Progress& progress) {
   validate(mesh, "mesh");
   const Frame frame = frameFor(mesh, options);
-  progress.report("reading the mesh", 0);
-  const TriangleSoup soup = makeSoup(mesh, frame.origin, frame.voxelSize);
+  const TriangleSoup soup = makeSoup(mesh, frame.origin, frame.voxelSize, progress.part(0, 0.1));
   SignSource source = options.sign;
   if (source == SignSource::Automatic) {
     source = soup.even && !soup.closed ? SignSource::RayParity : SignSource::WindingNumber;
   }
-  if (progress.cancelled()) return {};
 
   Array3D<float> distances(frame.size);
   Array3D<std::uint8_t> inside(frame.size);
   const double limit = std::max(options.halfWidth, 2.0);  // signs look 2 voxels far
   progress.report("finding the surface", 0.1);
-  const auto tree = std::make_shared<const TriangleTree>(cornersOf(soup));
+  const auto tree = std::make_shared<const TriangleTree>(cornersOf(soup), progress);
   if (source == SignSource::WindingNumber) {
-    const SolidTest solid(soup, tree);
-    std::vector<Corners> bounding = boundingTriangles(soup, *tree, solid, frame.size, limit + 4);
+    const SolidTest solid(soup, tree, progress);
+    std::vector<Corners> bounding =
+        boundingTriangles(soup, *tree, solid, frame.size, limit + 4, progress.part(0.15, 0.4));
     if (options.cutByBox) bounding = withoutCuts(std::move(bounding), frame.size);
-    if (progress.cancelled()) return {};
     progress.report("measuring distances", 0.4);
     if (!soup.closed) {
-      measureOpen(solid, std::move(bounding), limit, distances, inside);
+      measureOpen(solid, std::move(bounding), limit, distances, inside, progress.part(0.4, 1));
     } else {
       if (bounding == tree->triangles()) {
-        measure(*tree, limit, distances);
+        measure(*tree, limit, distances, progress.part(0.4, 0.9));
       } else {
-        measure(TriangleTree(std::move(bounding)), limit, distances);
+        measure(TriangleTree(std::move(bounding), progress), limit, distances,
+                progress.part(0.4, 0.9));
       }
-      spreadSigns(solid, distances, inside);
+      spreadSigns(solid, distances, inside, progress.part(0.9, 1));
     }
   } else {
-    progress.report("measuring distances", 0.4);
-    if (source == SignSource::Flood) inside = floodedInside(tree->triangles(), frame.size);
-    if (options.cutByBox) {
-      measure(TriangleTree(withoutCuts(tree->triangles(), frame.size)), limit, distances);
-    } else {
-      measure(*tree, limit, distances);
+    if (source == SignSource::Flood) {
+      progress.report("finding signs", 0.2);
+      inside = floodedInside(tree->triangles(), frame.size, progress);
     }
-    if (source == SignSource::RayParity) spreadSigns(ParityTest(soup), distances, inside);
+    const Progress measuring = progress.part(0.4, 0.8);
+    if (options.cutByBox) {
+      measure(TriangleTree(withoutCuts(tree->triangles(), frame.size), progress), limit, distances,
+              measuring);
+    } else {
+      measure(*tree, limit, distances, measuring);
+    }
+    if (source == SignSource::RayParity) {
+      spreadSigns(ParityTest(soup), distances, inside, progress.part(0.8, 1));
+    }
   }
 
   const auto values = distances.values();

@@ -38,8 +38,8 @@ struct MeshToSdfOptions {
 
 /// The signed distance of a mesh's solid.
 ///
-/// Samples stand at voxel centres: `box` is cut into cubes of `voxelSize`, the last ones reaching
-/// beyond it where its sides are no multiples, and sample (0, 0, 0) is the centre of the first.
+/// Samples are at voxel centers: `box` is cut into cubes of `voxelSize`, the last ones reaching
+/// beyond it where its sides are no multiples, and sample (0, 0, 0) is the center of the first.
 /// Geometry outside the box counts.
 ///
 /// Distances are those of the nearest triangle, exact but for rounding to float: OpenVDB's mesh to
@@ -55,9 +55,9 @@ struct MeshToSdfOptions {
 /// Cost on one core: about 1 microsecond a sample in the band, 0.1 elsewhere, up to 1 for each
 /// sample of a mesh with openings; 20 a triangle for looking for crossings. A full field costs
 /// about 1 microsecond for every sample. Memory: 5 bytes a sample, 16 for meshes with openings, and
-/// 500 a triangle. The same bytes at any number of threads. Cancelled, it returns an empty field.
-/// Throws `InputError` for a mesh that does not `validate`, options out of range and fields that
-/// would not fit in memory.
+/// 500 a triangle. The same bytes at any number of threads. Throws
+/// `InputError` for a mesh that does not `validate`, options out of range and fields that would not
+/// fit in memory, and `Cancelled`.
 DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& options = {},
                         const Progress& progress = {});
 

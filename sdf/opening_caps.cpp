@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/parallel.h"
+#include "sdf/loop_progress.h"
 
 namespace exemplar {
 namespace {
@@ -36,11 +37,12 @@ Vec3i next(Vec3i a, int axis) {
 }
 
 // The edges that a cap crosses, in ascending order.
-std::vector<Key> capEdges(const Lattice& lattice) {
+std::vector<Key> capEdges(const Lattice& lattice, const Progress& progress) {
   const Vec3i n = lattice.inside.size();
   std::vector<std::vector<Key>> layers(static_cast<std::size_t>(n.z));
   parallelFor(0, layers.size(), 1, [&](std::size_t k0, std::size_t k1) {
-    for (std::size_t k = k0; k < k1; ++k)
+    for (std::size_t k = k0; k < k1; ++k) {
+      progress.check();
       for (int j = 0; j < n.y; ++j)
         for (int i = 0; i < n.x; ++i)
           for (int axis = 0; axis < 3; ++axis) {
@@ -49,6 +51,7 @@ std::vector<Key> capEdges(const Lattice& lattice) {
               layers[k].push_back(lattice.edge(a, axis));
             }
           }
+    }
   });
   std::vector<Key> edges;
   for (const auto& layer : layers) edges.insert(edges.end(), layer.begin(), layer.end());
@@ -56,13 +59,15 @@ std::vector<Key> capEdges(const Lattice& lattice) {
 }
 
 // Where along each edge the surface crosses it, from 0 to 1. The winding number is smooth there, so
-// the edges are halved; the edges of a batch, neighbours mostly, are asked together.
+// the edges are halved; the edges of a batch, neighbors mostly, are tested together.
 std::vector<float> capCrossings(const SolidTest& solid, const Lattice& lattice,
-                                const std::vector<Key>& edges) {
+                                const std::vector<Key>& edges, const Progress& progress) {
   constexpr std::size_t kBatch = 32;
   constexpr int kHalvings = 6;
   std::vector<float> shares(edges.size());
-  parallelFor(0, (edges.size() + kBatch - 1) / kBatch, 1, [&](std::size_t b0, std::size_t b1) {
+  const std::size_t batches = (edges.size() + kBatch - 1) / kBatch;
+  LoopProgress done(progress, "closing openings", batches);
+  parallelFor(0, batches, 1, [&](std::size_t b0, std::size_t b1) {
     for (std::size_t batch = b0; batch < b1; ++batch) {
       const std::size_t begin = batch * kBatch, count = std::min(kBatch, edges.size() - begin);
       std::array<double, kBatch> low{}, high;
@@ -83,6 +88,7 @@ std::vector<float> capCrossings(const SolidTest& solid, const Lattice& lattice,
       }
       for (std::size_t e = 0; e < count; ++e)
         shares[begin + e] = static_cast<float>((low[e] + high[e]) / 2);
+      done.advance();
     }
   });
   return shares;
@@ -105,10 +111,10 @@ std::span<const Vec3i> cellsAround(const Vec3i& a, int axis, const Vec3i& size,
 
 std::vector<Corners> openingCaps(const SolidTest& solid, const Vec3i& low,
                                  const Array3D<std::uint8_t>& inside,
-                                 const Array3D<float>& distances) {
+                                 const Array3D<float>& distances, const Progress& progress) {
   const Lattice lattice{inside, distances, cast<double>(low)};
-  const std::vector<Key> edges = capEdges(lattice);
-  const std::vector<float> shares = capCrossings(solid, lattice, edges);
+  const std::vector<Key> edges = capEdges(lattice, progress);
+  const std::vector<float> shares = capCrossings(solid, lattice, edges, progress.part(0, 0.8));
 
   // Where the surface crosses an edge of a cell: a cap as found, triangles about where the
   // distances of the ends say.
@@ -136,8 +142,10 @@ std::vector<Corners> openingCaps(const SolidTest& solid, const Vec3i& low,
     }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  progress.report("closing openings", 0.8);
   std::vector<Vec3d> vertices(cells.size());
   parallelFor(0, cells.size(), 256, [&](std::size_t c0, std::size_t c1) {
+    progress.check();
     for (std::size_t c = c0; c < c1; ++c) {
       Vec3d sum{};
       int count = 0;

@@ -35,7 +35,7 @@ struct CountingContext {
   unsigned hits;
 };
 
-// Counts a hit and refuses it, so that the ray goes on.
+// Counts a hit and refuses it, so that the ray continues.
 void count(const RTCFilterFunctionNArguments* arguments) {
   ++reinterpret_cast<CountingContext*>(arguments->context)->hits;
   arguments->valid[0] = 0;

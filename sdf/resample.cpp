@@ -68,18 +68,6 @@ float sampleTrilinear(const DistanceField& field, const Vec3d& xyz) {
   return static_cast<float>(mix(below, above, t.z));
 }
 
-DistanceField truncated(const DistanceField& field, float truncation) {
-  if (!(truncation > 0))
-    throw InputError("the truncation is " + std::to_string(truncation) + "; it must be > 0");
-  DistanceField result = field;
-  result.truncation = std::min(field.truncation, truncation);
-  const auto values = result.values.values();
-  parallelFor(0, values.size(), kGrain, [&](std::size_t b, std::size_t e) {
-    for (std::size_t s = b; s < e; ++s) values[s] = std::clamp(values[s], -truncation, truncation);
-  });
-  return result;
-}
-
 QuantizedField quantize(const DistanceField& field, float range) {
   if (!(range > 0 && range < std::numeric_limits<float>::infinity()))
     throw InputError("the range to quantize is " + std::to_string(range) +

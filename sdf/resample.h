@@ -18,9 +18,6 @@ DistanceField blockAverage(const DistanceField& field, int factor);
 /// The field at a world position, trilinear between samples and constant beyond the outer ones.
 float sampleTrilinear(const DistanceField& field, const Vec3d& xyz);
 
-/// The field with its values clamped to ±`truncation` (world units).
-DistanceField truncated(const DistanceField& field, float truncation);
-
 /// A field in 256 levels (Lagae 2004, section 4.1): level 0 is `low`, level 255 is `high`.
 struct QuantizedField {
   Array3D<std::uint8_t> levels;

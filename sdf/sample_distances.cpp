@@ -7,19 +7,20 @@
 #include <cmath>
 #include <limits>
 
+#include "core/cells.h"
+
 namespace exemplar {
 
 void sampleDistances(const TriangleTree& surface, double limit, const Vec3i& low,
-                     Array3D<float>& distances) {
+                     Array3D<float>& distances, const Progress& progress) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  forBlocks(distances.size(), 8, [&](const Vec3i& first, const Vec3i& end) {
+  const auto sample = [&](const Vec3i& first, const Vec3i& end) {
     const Vec3d middle =
         cast<double>(low) + (cast<double>(first) + cast<double>(end) - Vec3d{1, 1, 1}) * 0.5;
     const double reach = limit + length(middle - cast<double>(low + first));
     if (reach < kInfinity && surface.distance(middle, reach) >= reach) {
-      for (int k = first.z; k < end.z; ++k)
-        for (int j = first.y; j < end.y; ++j)
-          for (int i = first.x; i < end.x; ++i) distances(i, j, k) = static_cast<float>(limit);
+      forEachCell(CellBox{first, end},
+                  [&](const Vec3i& ijk) { distances[ijk] = static_cast<float>(limit); });
       return;
     }
     // The triangle nearest to the sample before is near: a bound to search within.
@@ -27,7 +28,8 @@ void sampleDistances(const TriangleTree& surface, double limit, const Vec3i& low
     serpentine(first, end, [&](const Vec3i& ijk) {
       distances[ijk] = static_cast<float>(surface.distance(cast<double>(low + ijk), limit, near));
     });
-  });
+  };
+  forBlocks(distances.size(), 8, progress, "measuring distances", sample);
 }
 
 }  // namespace exemplar

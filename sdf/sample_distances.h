@@ -7,22 +7,27 @@
 
 #include "core/array3d.h"
 #include "core/parallel.h"
+#include "core/progress.h"
+#include "sdf/loop_progress.h"
 #include "sdf/triangle_tree.h"
 
 namespace exemplar {
 
 /// Calls body(low, high) for each block of samples of a box of `size`, in parallel: [low, high), at
-/// most `side` samples a side.
+/// most `side` samples a side. Reports as `stage`. Throws `Cancelled`.
 template <class Body>
-void forBlocks(const Vec3i& size, int side, const Body& body) {
+void forBlocks(const Vec3i& size, int side, const Progress& progress, std::string_view stage,
+               const Body& body) {
   const auto blocks = [&](int n) { return static_cast<std::size_t>(n / side + (n % side != 0)); };
   const std::size_t nx = blocks(size.x), ny = blocks(size.y), nz = blocks(size.z);
+  LoopProgress done(progress, stage, nx * ny * nz);
   parallelFor(0, nx * ny * nz, 1, [&](std::size_t b0, std::size_t b1) {
     for (std::size_t b = b0; b < b1; ++b) {
       const Vec3i low = Vec3i{static_cast<int>(b % nx), static_cast<int>(b / nx % ny),
                               static_cast<int>(b / (nx * ny))} *
                         side;
       body(low, min(low + Vec3i{side, side, side}, size));
+      done.advance();
     }
   });
 }
@@ -43,8 +48,8 @@ void serpentine(const Vec3i& low, const Vec3i& high, const Visit& visit) {
 
 /// Sets each sample ijk to the distance of the point low + ijk from the surface where it is less
 /// than `limit`, else to `limit`, which may be infinite. Exact; about 1 microsecond for each sample
-/// within the limit, far blocks of samples are skipped at once.
+/// within the limit, far blocks of samples are skipped at once. Throws `Cancelled`.
 void sampleDistances(const TriangleTree& surface, double limit, const Vec3i& low,
-                     Array3D<float>& distances);
+                     Array3D<float>& distances, const Progress& progress = {});
 
 }  // namespace exemplar

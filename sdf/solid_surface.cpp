@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "sdf/loop_progress.h"
 #include "sdf/triangle_overlap.h"
 
 namespace exemplar {
@@ -48,20 +49,24 @@ struct Overlaps {
 
 // Work on each triangle that makes any number of results, joined in the triangles' order.
 template <class T, class Work>
-std::vector<T> gather(std::size_t count, const Work& work) {
+std::vector<T> gather(std::size_t count, const Progress& progress, const Work& work) {
+  LoopProgress done(progress, "finding the surface", count);
   const std::size_t pieces = (count + kGrain - 1) / kGrain;
   std::vector<std::vector<T>> parts(pieces);
   parallelFor(0, pieces, 1, [&](std::size_t p0, std::size_t p1) {
     for (std::size_t p = p0; p < p1; ++p)
-      for (std::size_t t = p * kGrain; t < std::min(count, (p + 1) * kGrain); ++t)
+      for (std::size_t t = p * kGrain; t < std::min(count, (p + 1) * kGrain); ++t) {
         work(static_cast<std::uint32_t>(t), parts[p]);
+        done.advance();
+      }
   });
   std::vector<T> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
-Overlaps findOverlaps(const TriangleSoup& soup, const TriangleTree& tree) {
+Overlaps findOverlaps(const TriangleSoup& soup, const TriangleTree& tree,
+                      const Progress& progress) {
   const auto sharedCorners = [&](std::uint32_t a, std::uint32_t b) {
     int shared = 0;
     for (const std::uint32_t p : soup.triangles[a])
@@ -70,7 +75,7 @@ Overlaps findOverlaps(const TriangleSoup& soup, const TriangleTree& tree) {
   };
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
   const auto pairs =
-      gather<Pair>(soup.triangles.size(), [&](std::uint32_t t, std::vector<Pair>& out) {
+      gather<Pair>(soup.triangles.size(), progress, [&](std::uint32_t t, std::vector<Pair>& out) {
         const Corners& corners = tree.triangle(t);
         const Extent box = extentOf(corners);
         tree.visitBox(box.low, box.high, [&](std::uint32_t u) {
@@ -103,8 +108,9 @@ Overlaps findOverlaps(const TriangleSoup& soup, const TriangleTree& tree) {
 class Sorter {
  public:
   Sorter(const SolidTest& solid, const TriangleTree& tree, const Vec3i& size, double reach,
-         bool closed)
-      : solid_(solid),
+         bool closed, const Progress& progress)
+      : progress_(progress),
+        solid_(solid),
         tree_(tree),
         last_(cast<double>(size - Vec3i{1, 1, 1})),
         reach_(reach),
@@ -147,6 +153,7 @@ class Sorter {
   // The same for a part of a triangle; `middle` is the answer at its middle.
   void sortPart(const Corners& t, bool middle, std::span<const std::uint32_t> others,
                 std::vector<Corners>& out) const {
+    progress_.check();  // a triangle that crosses many others takes long
     const double distance = away(t);
     if (distance > reach_) return;
     std::vector<std::uint32_t> crossing;
@@ -214,6 +221,7 @@ class Sorter {
   }
 
  private:
+  Progress progress_;
   const SolidTest& solid_;
   const TriangleTree& tree_;
   Vec3d last_;
@@ -233,7 +241,7 @@ std::vector<std::uint32_t> partsOf(const TriangleSoup& soup, const Overlaps& ove
     while (!open.empty()) {
       const std::uint32_t t = open.back();
       open.pop_back();
-      for (const std::uint32_t u : soup.neighbours[t])
+      for (const std::uint32_t u : soup.neighbors[t])
         if (u != kNone && part[u] == kNone && overlaps.of(u).empty()) {
           part[u] = seed;
           open.push_back(u);
@@ -246,12 +254,14 @@ std::vector<std::uint32_t> partsOf(const TriangleSoup& soup, const Overlaps& ove
 }  // namespace
 
 std::vector<Corners> boundingTriangles(const TriangleSoup& soup, const TriangleTree& tree,
-                                       const SolidTest& solid, const Vec3i& size, double reach) {
-  const Sorter sorter(solid, tree, size, reach, soup.closed);
-  const Overlaps overlaps = findOverlaps(soup, tree);
+                                       const SolidTest& solid, const Vec3i& size, double reach,
+                                       const Progress& progress) {
+  const Progress sorting = progress.part(0.5, 1);
+  const Sorter sorter(solid, tree, size, reach, soup.closed, sorting);
+  const Overlaps overlaps = findOverlaps(soup, tree, progress.part(0, 0.5));
   const std::size_t count = soup.triangles.size();
   if (!soup.closed) {
-    return gather<Corners>(count, [&](std::uint32_t t, std::vector<Corners>& out) {
+    return gather<Corners>(count, sorting, [&](std::uint32_t t, std::vector<Corners>& out) {
       const Corners& corners = tree.triangle(t);
       if (sorter.outOfReach(corners)) return;
       sorter.sort(corners, overlaps.of(t), out);
@@ -271,10 +281,12 @@ std::vector<Corners> boundingTriangles(const TriangleSoup& soup, const TriangleT
   }
   std::vector<char> bounds(count);
   parallelFor(0, count, kGrain, [&](std::size_t b, std::size_t e) {
-    for (std::size_t t = b; t < e; ++t)
+    for (std::size_t t = b; t < e; ++t) {
+      sorting.check();
       if (largest[t] != TriangleSoup::kNone) bounds[t] = sorter.bounds(tree.triangle(largest[t]));
+    }
   });
-  return gather<Corners>(count, [&](std::uint32_t t, std::vector<Corners>& out) {
+  return gather<Corners>(count, sorting, [&](std::uint32_t t, std::vector<Corners>& out) {
     const Corners& corners = tree.triangle(t);
     if (sorter.outOfReach(corners)) return;
     if (part[t] == TriangleSoup::kNone) {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/progress.h"
 #include "sdf/solid_test.h"
 #include "sdf/triangle_soup.h"
 #include "sdf/triangle_tree.h"
@@ -16,12 +17,13 @@ namespace exemplar {
 /// into pieces of 0.4 voxels along the crossing, so that the part's border is right to within a
 /// quarter of a voxel; far from the samples the pieces are larger.
 ///
-/// Index space: samples stand at whole numbers from (0, 0, 0) to `size`. Triangles farther than
+/// Index space: samples are at whole numbers from (0, 0, 0) to `size`. Triangles farther than
 /// `reach` voxels from the samples are left out. About 10 microseconds a triangle for open soups,
 /// less for closed ones, where one answer holds for all triangles up to the next crossing. The same
-/// triangles in the same order at any number of threads.
-/// `tree` holds the soup's triangles in their order.
+/// triangles in the same order at any number of threads. `tree` holds the soup's triangles in their
+/// order. Throws `Cancelled`.
 std::vector<Corners> boundingTriangles(const TriangleSoup& soup, const TriangleTree& tree,
-                                       const SolidTest& solid, const Vec3i& size, double reach);
+                                       const SolidTest& solid, const Vec3i& size, double reach,
+                                       const Progress& progress = {});
 
 }  // namespace exemplar

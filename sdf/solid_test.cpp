@@ -30,7 +30,7 @@ double enclosedVolume(const Part& part) {
   return sum;
 }
 
-// Whether all triangles lie in one plane, as far as rounding tells.
+// Whether all triangles lie in one plane, to within rounding.
 bool isFlat(const Part& part) {
   Vec3d normal{};
   double longest = 0;
@@ -58,7 +58,8 @@ struct SolidTest::Parts {
   TriangleTree boxes{{}};  // their boxes, each as a triangle between two of its corners
 };
 
-SolidTest::SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTree> tree)
+SolidTest::SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTree> tree,
+                     const Progress& progress)
     : parts_(std::make_unique<Parts>()) {
   if (soup.closed) {
     parts_->closed = std::move(tree);
@@ -76,7 +77,7 @@ SolidTest::SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTre
     open[component].triangles.push_back(corners);
     for (const Vec3d& p : corners) open[component].box.add(p);
   }
-  if (!closed.empty()) parts_->closed = std::make_shared<TriangleTree>(std::move(closed));
+  if (!closed.empty()) parts_->closed = std::make_shared<TriangleTree>(std::move(closed), progress);
   std::erase_if(open, [](const Part& part) { return part.triangles.empty(); });
 
   std::vector<Corners> flat, boxes;
@@ -88,10 +89,10 @@ SolidTest::SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTre
     if (enclosedVolume(part) < 0)
       for (Corners& t : part.triangles) std::swap(t[1], t[2]);
     boxes.push_back({part.box.min, part.box.max, part.box.min});
-    parts_->open.emplace_back(std::move(part.triangles));
+    parts_->open.emplace_back(std::move(part.triangles), progress);
   }
-  parts_->flat = TriangleTree(std::move(flat));
-  parts_->boxes = TriangleTree(std::move(boxes));
+  parts_->flat = TriangleTree(std::move(flat), progress);
+  parts_->boxes = TriangleTree(std::move(boxes), progress);
 }
 
 SolidTest::~SolidTest() = default;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "core/progress.h"
 #include "core/vec.h"
 #include "sdf/triangle_soup.h"
 
@@ -20,16 +21,17 @@ namespace exemplar {
 /// component is more than 1/2: the surface on which it is 1/2 closes the opening. Open components
 /// count one by one, because each winds around points outside it, too, down to -1/2 and up to 1/2
 /// before its opening: in the sum of all, a stone without a bottom would dig a ditch into the floor
-/// it stands in, and bulge out below. Those that are turned inside out are turned back first. Flat
+/// it rests on, and bulge out below. Those that are turned inside out are turned back first. Flat
 /// ones, which enclose nothing alone, count together.
 class SolidTest {
  public:
-  /// `tree` holds the soup's triangles in their order.
-  SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTree> tree);
+  /// `tree` holds the soup's triangles in their order. Throws `Cancelled`.
+  SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTree> tree,
+            const Progress& progress = {});
   ~SolidTest();
 
-  /// Whether each point is inside; fastest for points that stand together. Any number of threads
-  /// may ask.
+  /// Whether each point is inside; fastest for points that are close together. Any number of
+  /// threads may ask.
   void inside(std::span<const Vec3d> points, std::span<std::uint8_t> result) const;
 
  private:

@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/disjoint_sets.h"
+
 namespace exemplar {
 namespace {
 
@@ -154,25 +156,9 @@ void orient(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) 
   }
 }
 
-// Sets of points that grow together.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    for (std::uint32_t p = 0; p < count; ++p) parent_[p] = p;
-  }
-  std::uint32_t root(std::uint32_t p) {
-    while (parent_[p] != p) p = parent_[p] = parent_[parent_[p]];
-    return p;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(b)] = root(a); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 // Joins rim points that are less than kRimGap apart.
 void joinRims(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>& onRim,
-              Sets& sets) {
+              const Progress& progress, DisjointSets& sets) {
   constexpr double kRimGap = 0.25;
   using Cell = std::array<std::int64_t, 3>;
   const auto cellOf = [&](const Vec3d& p) {
@@ -186,10 +172,11 @@ void joinRims(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>&
   for (std::uint32_t p = 0; p < points.size(); ++p)
     if (onRim[p]) cells.emplace_back(cellOf(points[p]), p);
   std::sort(cells.begin(), cells.end());
-  for (const auto& [cell, p] : cells)
+  for (const auto& [cell, p] : cells) {
+    progress.check();
     for (std::int64_t dx = -1; dx <= 1; ++dx)
       for (std::int64_t dy = -1; dy <= 1; ++dy) {
-        // The three cells along z stand together in the order.
+        // The three cells along z follow each other in the order.
         const Cell first{cell[0] + dx, cell[1] + dy, cell[2] - 1};
         auto other =
             std::lower_bound(cells.begin(), cells.end(), std::make_pair(first, std::uint32_t{0}));
@@ -199,20 +186,21 @@ void joinRims(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>&
           if (length(points[p] - points[other->second]) < kRimGap) sets.join(p, other->second);
         }
       }
+  }
 }
 
 // Numbers the components and each triangle's.
-void connect(const std::vector<std::uint8_t>& onRim, TriangleSoup& soup) {
-  Sets sets(soup.points.size());
+void connect(const std::vector<std::uint8_t>& onRim, const Progress& progress, TriangleSoup& soup) {
+  DisjointSets sets(soup.points.size());
   for (const auto& [a, b, c] : soup.triangles) {
     sets.join(a, b);
     sets.join(a, c);
   }
-  joinRims(soup.points, onRim, sets);
+  joinRims(soup.points, onRim, progress, sets);
   std::vector<std::uint32_t> number(soup.points.size(), TriangleSoup::kNone);
   soup.component.resize(soup.triangles.size());
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    std::uint32_t& n = number[sets.root(soup.triangles[t][0])];
+    std::uint32_t& n = number[sets.find(soup.triangles[t][0])];
     if (n == TriangleSoup::kNone) {
       n = static_cast<std::uint32_t>(soup.componentClosed.size());
       soup.componentClosed.push_back(1);
@@ -231,20 +219,26 @@ std::vector<Corners> cornersOf(const TriangleSoup& soup) {
   return corners;
 }
 
-TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale) {
+TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale,
+                      const Progress& progress) {
+  const auto report = [&](double fraction) { progress.report("reading the mesh", fraction); };
+  report(0);
   TriangleSoup soup;
   std::vector<std::uint32_t> indices;
   soup.points = joinPoints(mesh, origin, scale, indices);
   soup.triangles = mesh.triangles;
   for (auto& t : soup.triangles)
     for (std::uint32_t& v : t) v = indices[v];
+  report(0.2);
   dropDegenerateAndRepeated(soup.points, soup.triangles);
+  report(0.4);
   orient(soup.points, soup.triangles);
+  report(0.6);
   std::vector<std::uint8_t> onRim(soup.points.size());
   const std::vector<Side> sides = sortedSides(soup.triangles);
   soup.closed = soup.even = true;
   constexpr std::uint32_t kNone = TriangleSoup::kNone;
-  soup.neighbours.assign(soup.triangles.size(), {kNone, kNone, kNone});
+  soup.neighbors.assign(soup.triangles.size(), {kNone, kNone, kNone});
   forEdges(sides, [&](std::size_t b, std::size_t e) {
     int net = 0;
     for (std::size_t i = b; i < e; ++i) net += sides[i].upwards ? 1 : -1;
@@ -252,11 +246,12 @@ TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scal
     if (net != 0) onRim[sides[b].low] = onRim[sides[b].high] = 1;
     soup.even &= (e - b) % 2 == 0;
     if (e - b == 2 && net == 0) {
-      soup.neighbours[sides[b].triangle][sides[b].side] = sides[b + 1].triangle;
-      soup.neighbours[sides[b + 1].triangle][sides[b + 1].side] = sides[b].triangle;
+      soup.neighbors[sides[b].triangle][sides[b].side] = sides[b + 1].triangle;
+      soup.neighbors[sides[b + 1].triangle][sides[b + 1].side] = sides[b].triangle;
     }
   });
-  connect(onRim, soup);
+  report(0.8);
+  connect(onRim, progress, soup);
   return soup;
 }
 

@@ -7,16 +7,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/progress.h"
 #include "core/vec.h"
 #include "mesh/triangle_mesh.h"
 #include "sdf/triangle_tree.h"
 
 namespace exemplar {
 
-/// The triangles of a mesh, made ready for the question what they enclose: vertices at equal
+/// The triangles of a mesh, prepared for the question what they enclose: vertices at equal
 /// positions are one (files split them at seams), triangles without area are left out, and of equal
-/// ones those that face each other cancel and the others count once. Connected triangles that meet
-/// two at an edge are turned to face the same way, that of the larger area, where that is possible.
+/// ones those of opposite orientation cancel and the others count once. Connected triangles that
+/// meet two at an edge are oriented alike, as the larger area is, where that is possible.
 struct TriangleSoup {
   std::vector<Vec3d> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -28,11 +29,11 @@ struct TriangleSoup {
   bool even = false;
   /// For each triangle and side (corner s to s + 1) the triangle across it, where those two alone
   /// meet there and face the same way; else `kNone`.
-  std::vector<std::array<std::uint32_t, 3>> neighbours;
+  std::vector<std::array<std::uint32_t, 3>> neighbors;
 
   /// For each triangle its component, numbered by first triangle; and for each component whether it
   /// is closed. Components hang together through common points, and through points on the rims of
-  /// their openings that are less than a quarter (of `scale`) apart: parts that were modelled one
+  /// their openings that are less than a quarter (of `scale`) apart: parts that were modeled one
   /// by one and never joined.
   std::vector<std::uint32_t> component;
   std::vector<std::uint8_t> componentClosed;
@@ -49,7 +50,8 @@ inline Corners cornersOf(const TriangleSoup& soup, std::uint32_t t) {
 /// The corners of all triangles, in their order.
 std::vector<Corners> cornersOf(const TriangleSoup& soup);
 
-/// O(n log n) for n triangles; positions are (xyz - origin) / scale.
-TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale);
+/// O(n log n) for n triangles; positions are (xyz - origin) / scale. Throws `Cancelled`.
+TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scale,
+                      const Progress& progress = {});
 
 }  // namespace exemplar

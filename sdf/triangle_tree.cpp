@@ -6,6 +6,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,15 +18,14 @@ namespace {
 
 constexpr std::uint32_t kLeafTriangles = 4;
 constexpr std::uint32_t kParallelTriangles = 4096;
-// How many times its radius a cluster must be away for its expansion to stand in for it.
+// How many times its radius a cluster must be away for its expansion to replace it.
 constexpr double kFar = 2.3;
-constexpr std::size_t kMaxDepth = 64;
 
 Vec3d centroid(const Corners& t) { return (t[0] + t[1] + t[2]) / 3.0; }
 Vec3d areaVector(const Corners& t) { return cross(t[1] - t[0], t[2] - t[0]) * 0.5; }
 
 // Leaves of a tree over n triangles, halved until a part fits in a leaf. At each depth the parts
-// have one of two neighbouring sizes, so the pair for (m, m + 1) follows from the pair for m / 2.
+// have one of two neighboring sizes, so the pair for (m, m + 1) follows from the pair for m / 2.
 std::pair<std::uint32_t, std::uint32_t> leafCounts(std::uint32_t m) {
   if (m + 1 <= kLeafTriangles) return {1, 1};
   const auto [a, b] = leafCounts(m / 2);
@@ -35,62 +35,31 @@ std::pair<std::uint32_t, std::uint32_t> leafCounts(std::uint32_t m) {
 }
 std::uint32_t leafCount(std::uint32_t n) { return leafCounts(n).first; }
 
-double squaredBoxDistance(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
-  const Vec3d d = max(max(low - p, p - high), Vec3d{0, 0, 0});
-  return dot(d, d);
-}
-
 }  // namespace
 
-// Ericson, "Real-time collision detection" (2005), section 5.1.5: which of the triangle's seven
-// Voronoi regions holds the point.
-double squaredDistance(const Vec3d& p, const Corners& t) {
-  const Vec3d ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return dot(ap, ap);
-  const Vec3d bp = p - t[1];
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return dot(bp, bp);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-    const Vec3d q = ap - ab * (d1 / (d1 - d3));
-    return dot(q, q);
-  }
-  const Vec3d cp = p - t[2];
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return dot(cp, cp);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-    const Vec3d q = ap - ac * (d2 / (d2 - d6));
-    return dot(q, q);
-  }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const Vec3d q = bp - (t[2] - t[1]) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    return dot(q, q);
-  }
-  const double sum = va + vb + vc;
-  const Vec3d q = ap - ab * (vb / sum) - ac * (vc / sum);
-  return dot(q, q);
-}
-
-TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
+TriangleTree::TriangleTree(std::vector<Corners> triangles, const Progress& progress,
+                           Answers answers)
+    : triangles_(std::move(triangles)) {
   const auto n = static_cast<std::uint32_t>(triangles_.size());
   if (n == 0) return;
   order_.resize(n);
   for (std::uint32_t t = 0; t < n; ++t) order_[t] = t;
   leaves_.resize(n);
   nodes_.resize(2 * static_cast<std::size_t>(leafCount(n)) - 1);
-  moments_.resize(nodes_.size());
-  discs_.resize(nodes_.size());
-  build(0, 0, n);
+  if (answers == Answers::All) {
+    moments_.resize(nodes_.size());
+    discs_.resize(nodes_.size());
+  }
+  build(0, 0, n, progress);
 }
 
 TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
 TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
 TriangleTree::~TriangleTree() = default;
 
-void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count,
+                         const Progress& progress) {
+  progress.check();
   Node& n = nodes_[node];
   n.first = first;
   n.count = count;
@@ -124,8 +93,8 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
   const std::uint32_t half = count / 2;
   const std::uint32_t left = node + 1, right = node + 2 * leafCount(half);
   n.right = right;
-  const auto buildLeft = [&] { build(left, first, half); };
-  const auto buildRight = [&] { build(right, first + half, count - half); };
+  const auto buildLeft = [&] { build(left, first, half, progress); };
+  const auto buildRight = [&] { build(right, first + half, count - half, progress); };
   if (count >= kParallelTriangles) {
     tbb::parallel_invoke(buildLeft, buildRight);
   } else {
@@ -138,6 +107,7 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
 }
 
 void TriangleTree::setMoments(std::uint32_t node) {
+  if (moments_.empty()) return;
   const Node& n = nodes_[node];
   ClusterMoments& m = moments_[node];
   Vec3d weighted{};
@@ -235,34 +205,18 @@ double TriangleTree::distance(const Vec3d& p, double limit, std::uint32_t& near)
       best = near;
     }
   }
-  std::array<std::pair<std::uint32_t, double>, kMaxDepth> stack;
-  std::size_t depth = 0;
-  stack[depth++] = {0, squaredBound(p, 0, best2)};
-  while (depth > 0) {
-    const auto [node, bound2] = stack[--depth];
-    if (bound2 >= best2) continue;
-    const Node& n = nodes_[node];
-    if (n.right == 0) {
-      for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-        const double d2 = squaredDistance(p, leaves_[i]);
-        if (d2 < best2) {
-          best2 = d2;
-          best = order_[i];
-        }
-      }
-      continue;
+  assert(!discs_.empty());
+  const auto bound = [&](std::uint32_t node, double enough) {
+    return squaredBound(p, node, enough);
+  };
+  visitNearLeaves(best2, bound, [&](std::uint32_t i, double) {
+    const double d2 = squaredDistance(p, leaves_[i]);
+    if (d2 < best2) {
+      best2 = d2;
+      best = order_[i];
     }
-    const double left2 = squaredBound(p, node + 1, best2);
-    const double right2 = squaredBound(p, n.right, best2);
-    // The nearer child last, so that it comes off the stack first.
-    if (left2 <= right2) {
-      if (right2 < best2) stack[depth++] = {n.right, right2};
-      if (left2 < best2) stack[depth++] = {node + 1, left2};
-    } else {
-      if (left2 < best2) stack[depth++] = {node + 1, left2};
-      if (right2 < best2) stack[depth++] = {n.right, right2};
-    }
-  }
+    return best2;
+  });
   near = best;
   return best == kNone ? limit : std::sqrt(best2);
 }
@@ -278,6 +232,7 @@ void TriangleTree::windingNumbers(std::span<const Vec3d> points, std::span<doubl
     std::fill(result.begin(), result.end(), 0.0);
     return;
   }
+  assert(!moments_.empty());
   for (std::size_t begin = 0; begin < points.size(); begin += WindingLanes::kMost) {
     const auto some =
         points.subspan(begin, std::min<std::size_t>(WindingLanes::kMost, points.size() - begin));

@@ -8,15 +8,16 @@
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "sdf/loop_progress.h"
 #include "sdf/openvdb_ready.h"
 #include "sdf/redistance.h"
 #include "sdf/vdb_grids.h"
@@ -28,8 +29,8 @@ namespace fs = std::filesystem;
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-// Metadata of ours: the field's truncation, which a full field's background does not tell, and 1
-// for each axis along which the field goes round.
+// Metadata of ours: the field's truncation, which a full field's background does not give, and 1
+// for each axis along which the field is periodic.
 constexpr const char* kTruncation = "exemplar_truncation";
 constexpr const char* kWraps = "exemplar_wraps";
 
@@ -101,22 +102,26 @@ Vec3i sizeOf(const CoordBBox& box) {
 
 // Samples of a box of a grid, x fastest.
 template <class T, class Grid, class Convert>
-Array3D<T> readDense(const Grid& grid, const CoordBBox& box, const Convert& convert) {
+Array3D<T> readDense(const Grid& grid, const CoordBBox& box, const Progress& progress,
+                     const Convert& convert) {
   Array3D<T> values(sizeOf(box));
   const Vec3i size = values.size();
+  LoopProgress layers(progress, "reading the volume", static_cast<std::size_t>(size.z));
   parallelFor(0, static_cast<std::size_t>(size.z), 1, [&](std::size_t k0, std::size_t k1) {
     const auto accessor = grid.getConstUnsafeAccessor();
-    for (auto k = static_cast<int>(k0); k < static_cast<int>(k1); ++k)
-      for (int j = 0; j < size.y; ++j)
-        for (int i = 0; i < size.x; ++i)
-          values(i, j, k) = convert(accessor.getValue(box.min().offsetBy(i, j, k)));
+    for (auto k = static_cast<int>(k0); k < static_cast<int>(k1); ++k) {
+      forEachCell(CellBox{{0, 0, k}, {size.x, size.y, k + 1}}, [&](const Vec3i& p) {
+        values[p] = convert(accessor.getValue(box.min().offsetBy(p.x, p.y, p.z)));
+      });
+      layers.advance();
+    }
   });
   return values;
 }
 
 // The values as signed distances: as they are, or, for a fog volume, measured from its 0.5.
 template <class Grid>
-DistanceField fieldFrom(const Grid& grid, const fs::path& path) {
+DistanceField fieldFrom(const Grid& grid, const fs::path& path, const Progress& progress) {
   const auto gridClass = grid.getGridClass();
   CoordBBox box = sampleBox(grid, path);
   // A density's active voxels may end right at its surface.
@@ -125,7 +130,8 @@ DistanceField fieldFrom(const Grid& grid, const fs::path& path) {
   DistanceField field;
   field.voxelSize = place.voxelSize;
   field.origin = place.origin;
-  field.values = readDense<float>(grid, box, [](auto v) { return static_cast<float>(v); });
+  field.values = readDense<float>(grid, box, progress.part(0, 0.5),
+                                  [](auto v) { return static_cast<float>(v); });
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (const float v : field.values.values()) {
     if (!std::isfinite(v))
@@ -138,7 +144,7 @@ DistanceField fieldFrom(const Grid& grid, const fs::path& path) {
       gridClass == openvdb::GRID_FOG_VOLUME || (gridClass != openvdb::GRID_LEVEL_SET && low >= 0);
   if (fog) {
     for (float& v : field.values.values()) v = 0.5f - v;
-    return redistance(field);
+    return redistance(field, {}, progress.part(0.5, 1));
   }
   field.truncation = std::max({static_cast<float>(std::abs(grid.background())), -low, high});
   if (const auto stated = grid.template getMetadata<openvdb::FloatMetadata>(kTruncation);
@@ -158,7 +164,7 @@ void place(Grid& grid, const DistanceField& field) {
   grid.setCreator("exemplar");
 }
 
-std::array<bool, 3> wrapsOf(const openvdb::GridBase& grid) {
+Axes wrapsOf(const openvdb::GridBase& grid) {
   const auto stated = grid.getMetadata<openvdb::Vec3IMetadata>(kWraps);
   if (!stated) return {};
   const openvdb::Vec3i& v = stated->value();
@@ -171,8 +177,10 @@ void requireSamples(const fs::path& path, std::size_t count) {
 
 }  // namespace
 
-void writeVdb(const fs::path& path, const DistanceField& field, const std::array<bool, 3>& wraps) {
+void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wraps,
+              const Progress& progress) {
   requireSamples(path, field.values.count());
+  progress.report("packing the volume", 0);
   openvdbReady();
   float background = field.truncation;
   if (!std::isfinite(background)) {
@@ -185,8 +193,8 @@ void writeVdb(const fs::path& path, const DistanceField& field, const std::array
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
   place(*grid, field);
   grid->insertMeta(kTruncation, openvdb::FloatMetadata(field.truncation));
-  if (wraps[0] || wraps[1] || wraps[2]) {
-    grid->insertMeta(kWraps, openvdb::Vec3IMetadata({wraps[0], wraps[1], wraps[2]}));
+  if (wraps.any()) {
+    grid->insertMeta(kWraps, openvdb::Vec3IMetadata({wraps.x, wraps.y, wraps.z}));
   }
   const Vec3i size = field.size();
   // The view is only read, but OpenVDB has none of constant samples.
@@ -194,20 +202,23 @@ void writeVdb(const fs::path& path, const DistanceField& field, const std::array
       CoordBBox({0, 0, 0}, {size.x - 1, size.y - 1, size.z - 1}),
       const_cast<float*>(field.values.data()));
   openvdb::tools::copyFromDense(dense, *grid, 0.0f);
+  progress.report("packing the volume", 0.3);
   for (auto leaf = grid->tree().beginLeaf(); leaf; ++leaf) {
+    progress.check();
     for (auto v = leaf->beginValueOn(); v; ++v) {
       if (std::abs(*v) >= background && std::isfinite(field.truncation)) v.setValueOff();
     }
   }
   openvdb::tools::pruneLevelSet(grid->tree());
-  writeVdbGrids(path, {grid});
+  writeVdbGrids(path, {grid}, progress.part(0.5, 1));
 }
 
-DistanceField readVdb(const fs::path& path, std::array<bool, 3>* wraps) {
-  return withGrids<DistanceField>(path, [&](const openvdb::GridPtrVec& grids) {
+DistanceField readVdb(const fs::path& path, Axes* wraps, const Progress& progress) {
+  progress.report("reading the volume", 0);
+  DistanceField field = withGrids<DistanceField>(path, [&](const openvdb::GridPtrVec& grids) {
     const auto read = [&](const auto& grid) {
       if (wraps) *wraps = wrapsOf(grid);
-      return fieldFrom(grid, path);
+      return fieldFrom(grid, path, progress.part(0.3, 1));
     };
     if (const auto grid = firstGrid<openvdb::FloatGrid>(grids, "")) return read(*grid);
     if (const auto grid = firstGrid<openvdb::DoubleGrid>(grids, "")) return read(*grid);
@@ -216,9 +227,12 @@ DistanceField readVdb(const fs::path& path, std::array<bool, 3>* wraps) {
       names += (names.empty() ? "" : ", ") + grid->getName() + " (" + grid->valueType() + ")";
     fail(path, "holds no grid of floats" + (names.empty() ? std::string() : "; it has " + names));
   });
+  progress.report("reading the volume", 1);
+  return field;
 }
 
-void writeOriginsVdb(const fs::path& path, const Origins& origins, const DistanceField& field) {
+void writeOriginsVdb(const fs::path& path, const Origins& origins, const DistanceField& field,
+                     const Progress& progress) {
   requireSamples(path, origins.count());
   openvdbReady();
   // Backgrounds that no cell has: every cell is an active voxel.
@@ -232,18 +246,22 @@ void writeOriginsVdb(const fs::path& path, const Origins& origins, const Distanc
   stateBox(*sources, origins.size());
   auto cell = cells->getAccessor();
   auto source = sources->getAccessor();
-  for (std::size_t s = 0; s < origins.count(); ++s) {
-    const Origin& o = origins.values()[s];
-    const Vec3i ijk = origins.ijk(s);
-    const Coord at(ijk.x, ijk.y, ijk.z);
-    cell.setValue(at, {o.i, o.j, o.k});
-    source.setValue(at, o.example * 4 + o.turns);
+  const Vec3i size = origins.size();
+  for (int k = 0; k < size.z; ++k) {
+    progress.report("packing the origins", 0.5 * k / size.z);
+    forEachCell(CellBox{{0, 0, k}, {size.x, size.y, k + 1}}, [&](const Vec3i& ijk) {
+      const Origin& o = origins[ijk];
+      const Coord at(ijk.x, ijk.y, ijk.z);
+      cell.setValue(at, {o.i, o.j, o.k});
+      source.setValue(at, o.example * 4 + o.turns);
+    });
   }
-  writeVdbGrids(path, {cells, sources});
+  writeVdbGrids(path, {cells, sources}, progress.part(0.5, 1));
 }
 
-Origins readOriginsVdb(const fs::path& path) {
-  return withGrids<Origins>(path, [&](const openvdb::GridPtrVec& grids) {
+Origins readOriginsVdb(const fs::path& path, const Progress& progress) {
+  progress.report("reading the origins", 0);
+  Origins read = withGrids<Origins>(path, [&](const openvdb::GridPtrVec& grids) {
     const auto cells = firstGrid<openvdb::Vec3IGrid>(grids, "origin");
     const auto sources = firstGrid<openvdb::Int32Grid>(grids, "source");
     if (!cells || !sources)
@@ -251,8 +269,9 @@ Origins readOriginsVdb(const fs::path& path) {
     const CoordBBox box = sampleBox(*cells, path);
     if (sampleBox(*sources, path) != box)
       fail(path, "the grids \"origin\" and \"source\" differ in size");
-    const auto ijk = readDense<openvdb::Vec3i>(*cells, box, [](const auto& v) { return v; });
-    const auto from = readDense<int>(*sources, box, [](int v) { return v; });
+    const auto ijk = readDense<openvdb::Vec3i>(*cells, box, progress.part(0.3, 0.7),
+                                               [](const auto& v) { return v; });
+    const auto from = readDense<int>(*sources, box, progress.part(0.7, 1), [](int v) { return v; });
     Origins origins(sizeOf(box));
     for (std::size_t s = 0; s < origins.count(); ++s) {
       const openvdb::Vec3i& c = ijk.values()[s];
@@ -266,6 +285,8 @@ Origins readOriginsVdb(const fs::path& path) {
     }
     return origins;
   });
+  progress.report("reading the origins", 1);
+  return read;
 }
 
 }  // namespace exemplar

@@ -3,30 +3,34 @@
 
 #pragma once
 
-#include <array>
 #include <filesystem>
 
+#include "core/axes.h"
 #include "core/origin.h"
+#include "core/progress.h"
 #include "sdf/distance_field.h"
 
 namespace exemplar {
 
 /// Writes a field as one float grid "surface" of class level set (`.vdb`), world transform
 /// included, as Blender, Houdini and `vdb_print` read it. Samples outside ±truncation become
-/// background tiles. Whole or not at all. `wraps`: along which axes the field goes round, its last
-/// sample beside its first; the file says so.
-void writeVdb(const std::filesystem::path& path, const DistanceField& field,
-              const std::array<bool, 3>& wraps = {});
+/// background tiles. Whole or not at all. `wraps`: the axes along which the field is periodic, its
+/// last sample beside its first; the file records them. Throws `InputError` naming the file, and
+/// `Cancelled`.
+void writeVdb(const std::filesystem::path& path, const DistanceField& field, const Axes& wraps = {},
+              const Progress& progress = {});
 
 /// Reads the first float grid of a `.vdb` (a level set, or a fog volume whose 0.5 becomes the
 /// surface) as a dense field over its active box. Voxels must be cubes. Throws `InputError` naming
-/// the file. `wraps` becomes what `writeVdb` was told, none for files of other programs.
-DistanceField readVdb(const std::filesystem::path& path, std::array<bool, 3>* wraps = nullptr);
+/// the file, and `Cancelled`. `wraps` receives the axes that `writeVdb` recorded, none for files of
+/// other programs.
+DistanceField readVdb(const std::filesystem::path& path, Axes* wraps = nullptr,
+                      const Progress& progress = {});
 
 /// Origins as an int32 vector grid "origin" (example cell i, j, k) and an int32 grid "source"
 /// (example and quarter turns) on the transform of `field`, and back.
 void writeOriginsVdb(const std::filesystem::path& path, const Origins& origins,
-                     const DistanceField& field);
-Origins readOriginsVdb(const std::filesystem::path& path);
+                     const DistanceField& field, const Progress& progress = {});
+Origins readOriginsVdb(const std::filesystem::path& path, const Progress& progress = {});
 
 }  // namespace exemplar

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the unique id stands in a .vdb file (its header: 8 bytes of magic number, three 4-byte
+// Where the unique id is in a .vdb file (its header: 8 bytes of magic number, three 4-byte
 // versions, 1 byte for "has offsets") and how long it is.
 constexpr std::size_t kIdBegin = 21, kIdLength = 36;
 
@@ -72,7 +72,9 @@ class BytesBuffer : public std::streambuf {
 
 void openvdbReady() { openvdb::initialize(); }
 
-void writeVdbGrids(const fs::path& path, const openvdb::GridCPtrVec& grids) {
+void writeVdbGrids(const fs::path& path, const openvdb::GridCPtrVec& grids,
+                   const Progress& progress) {
+  progress.report("writing the volume", 0);
   OutputFile out(path);
   try {
     openvdb::io::File file(out.temporaryPath().string());
@@ -81,6 +83,7 @@ void writeVdbGrids(const fs::path& path, const openvdb::GridCPtrVec& grids) {
   } catch (const std::exception& error) {
     fail(path, std::string("cannot be written: ") + error.what());
   }
+  progress.report("writing the volume", 0.5);
   std::string bytes = readFile(out.temporaryPath());
   if (bytes.size() < kIdBegin + kIdLength) fail(path, "cannot be written: the disk may be full");
   bytes.replace(kIdBegin, kIdLength, kIdLength, '0');
@@ -91,7 +94,9 @@ void writeVdbGrids(const fs::path& path, const openvdb::GridCPtrVec& grids) {
                 static_cast<unsigned>(b >> 48 & 0xfff),
                 static_cast<unsigned long long>(b & 0xffffffffffff));
   bytes.replace(kIdBegin, kIdLength, id, kIdLength);
+  progress.report("writing the volume", 0.8);
   out.write(bytes);
+  progress.report("writing the volume", 1);
   out.commit();
 }
 
@@ -107,6 +112,8 @@ void withVdbGrids(const fs::path& path,
     openvdb::io::Stream stream(in, /*delayLoad=*/false);
     use(*stream.getGrids());
   } catch (const InputError&) {
+    throw;
+  } catch (const Cancelled&) {
     throw;
   } catch (const std::exception& error) {
     std::string what = error.what();

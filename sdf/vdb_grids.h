@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "core/progress.h"
 #include "core/vec.h"
 
 namespace exemplar {
@@ -16,15 +17,17 @@ namespace exemplar {
 // compile: include it in few sources.
 
 /// Writes grids to a file, whole or not at all. The same grids give the same bytes: a hash of the
-/// content stands in place of the random id that OpenVDB gives each file. Throws `InputError`.
-void writeVdbGrids(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids);
+/// content replaces the random id that OpenVDB gives each file. Throws `InputError` and
+/// `Cancelled`.
+void writeVdbGrids(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
+                   const Progress& progress = {});
 
 /// Calls `use` with the grids of a file. Whatever OpenVDB throws, within `use` too, becomes an
-/// `InputError` naming the file.
+/// `InputError` naming the file; `Cancelled` passes.
 void withVdbGrids(const std::filesystem::path& path,
                   const std::function<void(const openvdb::GridPtrVec&)>& use);
 
-/// The box that a grid speaks of, both ends included: the one that `stateBox` wrote where the file
+/// The box that a grid covers, both ends included: the one that `stateBox` wrote where the file
 /// has it and all active voxels lie within, else that of the active voxels. Throws `InputError`
 /// naming the file where that is empty.
 openvdb::math::CoordBBox statedBox(const openvdb::GridBase& grid,

@@ -20,7 +20,7 @@ struct ClusterMoments {
   std::array<double, 10> second{};  ///< sum of x x a: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
 };
 
-/// Winding numbers at up to `kMost` points at once, the loops over the points vectorised.
+/// Winding numbers at up to `kMost` points at once, the loops over the points vectorized.
 ///
 /// Solid angles of triangles are not added but multiplied: the triangle's angle is that of a
 /// complex number (van Oosterom, Strackee: "The solid angle of a plane triangle", IEEE TBME 1983),

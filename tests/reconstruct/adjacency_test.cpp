@@ -66,7 +66,7 @@ TEST(VertexComponents, AreNumberedByTheirLowestVertex) {
   std::uint32_t count = 0;
   const auto part = vertexComponents(triangles, 9, &count);
   EXPECT_EQ(part, (std::vector<std::uint32_t>{0, 0, 1, 0, 0, 2, 2, 2, 0}));
-  EXPECT_EQ(count, 3u);  // vertex 2 stands alone
+  EXPECT_EQ(count, 3u);  // vertex 2 is alone
 }
 
 TEST(KeepTriangles, CarriesEveryAttributeOfWhatStays) {

@@ -8,11 +8,12 @@
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/random.h"
 #include "mesh/primitives.h"
-#include "core/origin.h"
 #include "sdf/mesh_to_sdf.h"
 #include "tests/reconstruct/fields.h"
+#include "tests/sdf/cancellation.h"
 
 namespace exemplar {
 namespace {
@@ -69,7 +70,7 @@ TEST(CopyTriangles, IdentityOriginsGiveTheExampleBack) {
   }
 }
 
-TEST(CopyTriangles, CarriesColoursCoordinatesAndMaterials) {
+TEST(CopyTriangles, CarriesColorsCoordinatesAndMaterials) {
   TriangleMesh example = makeSphere({}, 1, 9);
   example.materials.resize(2);
   for (std::size_t t = 0; t < example.triangles.size(); ++t) {
@@ -222,7 +223,8 @@ TEST(CopyTriangles, BadInputIsRefused) {
   const TriangleMesh example = makeSphere({}, 1, 4);
   const DistanceField field = meshToSdf(example, {.resolution = 12, .padding = 2});
   const Origins origins = identityOrigins(field.size());
-  EXPECT_THROW(copyTriangles(field, origins, example, field, {.weld = 2}), InputError);
+  EXPECT_THAT([&] { copyTriangles(field, origins, example, field, {.weld = 2}); },
+              ThrowsMessage<InputError>(HasSubstr("`weld` is 2")));
   EXPECT_THAT(
       [&] {
         copyTriangles(field, Origins({2, 2, 2}), example, field);
@@ -233,6 +235,17 @@ TEST(CopyTriangles, BadInputIsRefused) {
         copyTriangles(field, Origins(field.size(), Origin(Vec3i{0, 0, 0})), example, field);
       },
       ThrowsMessage<InputError>(HasSubstr("no triangle was copied")));
+}
+
+TEST(CopyTriangles, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  const TriangleMesh example = makeSphere({}, 1, 20);
+  const DistanceField field = meshToSdf(example, {.resolution = 32, .padding = 2});
+  const Origins origins = identityOrigins(field.size());
+  expectReportsAndStops(
+      [&](const Progress& progress) {
+        copyTriangles(field, origins, example, field, {}, progress);
+      },
+      20);
 }
 
 }  // namespace

@@ -3,15 +3,20 @@
 
 #include "reconstruct/decimate.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "mesh/primitives.h"
 #include "reconstruct/field_to_mesh.h"
 #include "tests/reconstruct/fields.h"
+#include "tests/sdf/cancellation.h"
 
 namespace exemplar {
 namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 TEST(Decimate, KeepsASurfaceSoundAndNear) {
   const auto value = [](const Vec3d& p) { return torusDistance(p, 14, 6); };
@@ -62,14 +67,28 @@ TEST(Decimate, StopsAtTheNumberAskedFor) {
 
 TEST(Decimate, RefusesWhatItWouldSpoil) {
   TriangleMesh mesh = makeSphere({}, 1, 2);
-  EXPECT_THROW(decimate(mesh, {.error = -1}), InputError);
-  EXPECT_THROW(decimate(mesh, {.error = 1, .triangles = -1}), InputError);
+  EXPECT_THAT([&] { decimate(mesh, {.error = -1}); },
+              ThrowsMessage<InputError>(HasSubstr("`error` is -1")));
+  EXPECT_THAT([&] { decimate(mesh, {.error = 1, .triangles = -1}); },
+              ThrowsMessage<InputError>(HasSubstr("`triangles` is -1")));
   mesh.colors.assign(mesh.positions.size(), {1, 1, 1, 1});
-  EXPECT_THROW(decimate(mesh, {.error = 1}), InputError);
+  EXPECT_THAT([&] { decimate(mesh, {.error = 1}); },
+              ThrowsMessage<InputError>(HasSubstr("would lose materials")));
   TriangleMesh fan;
   fan.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}};
   fan.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
-  EXPECT_THROW(decimate(fan, {.error = 1}), InputError);
+  EXPECT_THAT([&] { decimate(fan, {.error = 1}); },
+              ThrowsMessage<InputError>(HasSubstr("manifold, oriented mesh")));
+}
+
+TEST(Decimate, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  const TriangleMesh mesh = makeSphere({}, 1, 60);  // 72,000 triangles
+  expectReportsAndStops(
+      [&](const Progress& progress) {
+        TriangleMesh simple = mesh;
+        decimate(simple, {.error = 0.01}, progress);
+      },
+      8);
 }
 
 }  // namespace

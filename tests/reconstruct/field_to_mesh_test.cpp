@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "tests/reconstruct/fields.h"
+#include "tests/sdf/cancellation.h"
 
 namespace exemplar {
 namespace {
@@ -81,15 +82,6 @@ TEST(FieldToMesh, IsSoundWhateverTheFieldHolds) {
         expectSound(mesh);
         EXPECT_GT(meshHealth(mesh).signedVolume, 0);
       }
-    }
-  }
-}
-
-TEST(FieldToMesh, IsSoundWhereItMergesFlatSurface) {
-  for (const auto& [name, field] : adversarialFields()) {
-    for (const double adaptivity : {0.05, 0.3, 1.0}) {
-      SCOPED_TRACE(name);
-      expectSound(fieldToMesh(field, {.adaptivity = adaptivity, .smallestPiece = 0}));
     }
   }
 }
@@ -242,25 +234,11 @@ TEST(FieldToMesh, SpecksAndTinyHollowsGoUnlessTheyTouchTheBox) {
   field.values(12, 12, 12) = 0.5f;  // a hollow
   field.values(0, 20, 20) = -0.5f;  // cut by the box: may be the end of something
   FieldToMeshReport report;
-  const TriangleMesh mesh = fieldToMesh(field, {.redistance = false}, &report);
+  const TriangleMesh mesh = fieldToMesh(field, {.redistance = false}, {}, &report);
   EXPECT_EQ(report.droppedPieces, 2);
   EXPECT_EQ(report.health.components, 2);
   EXPECT_EQ(meshHealth(fieldToMesh(field, {.redistance = false, .smallestPiece = 0})).components,
             4);
-}
-
-TEST(FieldToMesh, MergingFlatSurfaceNeedsFewerTriangles) {
-  const DistanceField field = makeField({64, 64, 64}, 1, {-31.5, -31.5, -31.5}, [](const Vec3d& p) {
-    return boxDistance(p, {20.2, 20.3, 20.4});
-  });
-  FieldToMeshReport report;
-  const TriangleMesh fine = fieldToMesh(field, {}, &report);
-  EXPECT_TRUE(report.uniform);
-  const TriangleMesh coarse = fieldToMesh(field, {.adaptivity = 0.1}, &report);
-  EXPECT_FALSE(report.uniform);
-  EXPECT_LT(coarse.triangles.size(), fine.triangles.size() / 4);
-  EXPECT_NEAR(report.health.signedVolume, meshHealth(fine).signedVolume,
-              0.01 * report.health.signedVolume);
 }
 
 // Two halves of a ball, one taken from 0.8 voxels aside: the true surface steps there, and nowhere
@@ -272,7 +250,7 @@ TEST(FieldToMesh, RepairsTheFieldAroundJumps) {
       makeField({26, 26, 26}, 1, {-12.5, -12.5, -12.5},
                 [&](const Vec3d& p) { return p.x < 0 ? left(p) : right(p); });
   FieldToMeshReport report;
-  const TriangleMesh mesh = fieldToMesh(field, {}, &report);
+  const TriangleMesh mesh = fieldToMesh(field, {}, {}, &report);
   expectSound(mesh);
   EXPECT_EQ(report.health.components, 1);
   for (const Vec3d& p : mesh.positions) {
@@ -296,13 +274,19 @@ TEST(FieldToMesh, IsTheSameAtAnyNumberOfThreads) {
     return std::sin(p.x) + std::cos(p.y * 1.3) + std::sin(p.z * 0.7 + p.x) +
            0.3 * random.normal(static_cast<std::uint64_t>(p.x * 1e4 + p.y * 1e7 + p.z * 1e10));
   });
-  for (const double adaptivity : {0.0, 0.3}) {
-    TriangleMesh one, eight;
-    tbb::task_arena(1).execute([&] { one = fieldToMesh(field, {.adaptivity = adaptivity}); });
-    tbb::task_arena(8).execute([&] { eight = fieldToMesh(field, {.adaptivity = adaptivity}); });
-    EXPECT_EQ(one.positions, eight.positions);
-    EXPECT_EQ(one.triangles, eight.triangles);
-  }
+  TriangleMesh one, eight;
+  tbb::task_arena(1).execute([&] { one = fieldToMesh(field); });
+  tbb::task_arena(8).execute([&] { eight = fieldToMesh(field); });
+  EXPECT_EQ(one.positions, eight.positions);
+  EXPECT_EQ(one.triangles, eight.triangles);
+}
+
+TEST(FieldToMesh, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  // With jumps, so that distances are corrected.
+  const DistanceField field = makeField({48, 48, 48}, 1, {0, 0, 0}, [](const Vec3d& p) {
+    return sphereDistance(p, {24, p.x < 24 ? 24.0 : 26.0, 24}, 18);
+  });
+  expectReportsAndStops([&](const Progress& progress) { fieldToMesh(field, {}, progress); }, 20);
 }
 
 TEST(FieldToMesh, AFieldWithoutSurfaceIsRefusedWithAdvice) {
@@ -315,22 +299,21 @@ TEST(FieldToMesh, AFieldWithoutSurfaceIsRefusedWithAdvice) {
   DistanceField speck = empty;
   speck.values(1, 1, 1) = -0.5f;
   EXPECT_THAT([&] { fieldToMesh(speck); },
-              ThrowsMessage<InputError>(HasSubstr("1 specks below the smallest piece")));
+              ThrowsMessage<InputError>(HasSubstr("1 specks below `smallestPiece`")));
 }
 
 TEST(FieldToMesh, BadOptionsAndSamplesAreRefusedByName) {
   DistanceField field = makeField({4, 4, 4}, 1, {}, [](const Vec3d& p) { return p.x - 1.5; });
-  EXPECT_THAT([&] { fieldToMesh(field, {.adaptivity = 1.5}); },
-              ThrowsMessage<InputError>(HasSubstr("adaptivity")));
   EXPECT_THAT([&] { fieldToMesh(field, {.smallestPiece = -1}); },
-              ThrowsMessage<InputError>(HasSubstr("smallest piece")));
+              ThrowsMessage<InputError>(HasSubstr("`smallestPiece` is -1")));
   field.values(3, 2, 1) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT([&] { fieldToMesh(field); }, ThrowsMessage<InputError>(HasSubstr("3, 2, 1")));
-  EXPECT_THROW(fieldToMesh(DistanceField{}), InputError);
+  EXPECT_THAT([] { fieldToMesh(DistanceField{}); },
+              ThrowsMessage<InputError>(HasSubstr("has no samples")));
 }
 
-/// A field that goes round along x and y: waves and balls, cut by the box along z.
-DistanceField roundAbout(const Vec3i& n) {
+/// A field that is periodic along x and y: waves and balls, cut by the box along z.
+DistanceField periodicField(const Vec3i& n) {
   DistanceField field;
   field.voxelSize = 0.5;
   field.origin = {3, 4, 5};
@@ -344,9 +327,9 @@ DistanceField roundAbout(const Vec3i& n) {
   return field;
 }
 
-/// How many edges have one triangle if vertices in the same place, round about, are one.
-std::int64_t openWhenTiled(const TriangleMesh& mesh, const Box3d& box,
-                           const std::array<bool, 3>& wraps) {
+/// How many edges have one triangle if vertices in the same place, periodic copies included, are
+/// one.
+std::int64_t openWhenTiled(const TriangleMesh& mesh, const Box3d& box, const Axes& wraps) {
   std::map<std::array<std::int64_t, 3>, std::uint32_t> places;
   std::vector<std::uint32_t> place;
   for (const Vec3d& p : mesh.positions) {
@@ -365,9 +348,9 @@ std::int64_t openWhenTiled(const TriangleMesh& mesh, const Box3d& box,
   return std::ranges::count_if(sides, [](const auto& side) { return side.second % 2 != 0; });
 }
 
-TEST(FieldToMesh, WhereTheFieldGoesRoundCopiesJoin) {
-  const DistanceField field = roundAbout({24, 20, 16});
-  const std::array<bool, 3> wraps{true, true, false};
+TEST(FieldToMesh, CopiesJoinWhereTheFieldIsPeriodic) {
+  const DistanceField field = periodicField({24, 20, 16});
+  const Axes wraps{true, true, false};
   const TriangleMesh closed = fieldToMesh(field);
   const TriangleMesh open = fieldToMesh(field, {.wraps = wraps});
   ASSERT_TRUE(meshHealth(closed).closed());

@@ -3,21 +3,21 @@
 
 #include "reconstruct/reconstruct.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
-
-#include <map>
 
 #include "core/error.h"
 #include "core/random.h"
 #include "mesh/primitives.h"
 #include "sdf/mesh_to_sdf.h"
 #include "tests/reconstruct/fields.h"
+#include "tests/sdf/cancellation.h"
 
 namespace exemplar {
 namespace {
 
-/// A coloured example and a copy of it in jittered blocks: what a poor synthesis would return.
+/// A colored example and a copy of it in jittered blocks: what a poor synthesis would return.
 struct Blocks {
   TriangleMesh example = makeTorus({}, {1, 2, 3}, 1, 0.45, 60, 30);
   DistanceField exampleField, field;
@@ -46,56 +46,16 @@ struct Blocks {
   }
 };
 
-TEST(ReconstructSurface, IsSoundAndCarriesEverythingWhateverTheSteps) {
+TEST(ReconstructSurface, IsSoundAndCarriesEverything) {
   const Blocks blocks;
-  for (const double blend : {0.0, 2.0}) {
-    for (const int relax : {0, 10}) {
-      for (const double simplify : {0.0, 0.1}) {
-        ReconstructOptions options;
-        options.blend = blend;
-        options.relax = relax;
-        options.simplify = simplify;
-        const Reconstruction result = reconstructSurface(
-            blocks.field, blocks.origins, {blocks.exampleField, &blocks.example}, options);
-        expectSound(result.mesh);
-        validate(result.mesh, "result");
-        EXPECT_TRUE(result.health.closed() && result.health.manifold() && result.health.oriented());
-        EXPECT_TRUE(result.mesh.hasColors() && result.mesh.hasMaterials());
-        const double volume = meshHealth(blocks.example).signedVolume;
-        EXPECT_NEAR(result.health.signedVolume, volume, 0.05 * volume);
-      }
-    }
-  }
-}
-
-TEST(ReconstructSurface, BlendingAndRelaxingSmoothTheSeams) {
-  const Blocks blocks;
-  // The mean angle between neighbouring triangles; the torus itself has next to none.
-  const auto meanTurn = [&](double blend, int relax) {
-    ReconstructOptions options;
-    options.blend = blend;
-    options.relax = relax;
-    const TriangleMesh mesh =
-        reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField}, options).mesh;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3d> normalAt;
-    double sum = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Vec3d n = normalized(areaNormal(mesh, t));
-      for (int c = 0; c < 3; ++c) {
-        const std::uint32_t a = mesh.triangles[t][c], b = mesh.triangles[t][(c + 1) % 3];
-        normalAt[{a, b}] = n;
-        const auto other = normalAt.find({b, a});
-        if (other != normalAt.end()) sum += std::acos(std::clamp(dot(n, other->second), -1.0, 1.0));
-      }
-    }
-    return sum / (1.5 * static_cast<double>(mesh.triangles.size()));
-  };
-  const double plain = meanTurn(0, 0);
-  // Blending moves the surface within two voxels of the seams only, and relaxing no more than half
-  // a voxel, so part of the roughness of one-voxel jitter stays.
-  EXPECT_LT(meanTurn(2, 0), 0.75 * plain);
-  EXPECT_LT(meanTurn(0, 10), 0.95 * plain);
-  EXPECT_LT(meanTurn(2, 10), meanTurn(2, 0));
+  const Reconstruction result =
+      reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField, &blocks.example});
+  expectSound(result.mesh);
+  validate(result.mesh, "result");
+  EXPECT_TRUE(result.health.closed() && result.health.manifold() && result.health.oriented());
+  EXPECT_TRUE(result.mesh.hasColors() && result.mesh.hasMaterials());
+  const double volume = meshHealth(blocks.example).signedVolume;
+  EXPECT_NEAR(result.health.signedVolume, volume, 0.05 * volume);
 }
 
 TEST(ReconstructSurface, WithoutTrianglesThereIsNothingToCarry) {
@@ -108,13 +68,9 @@ TEST(ReconstructSurface, WithoutTrianglesThereIsNothingToCarry) {
 
 TEST(ReconstructSurface, IsTheSameAtAnyNumberOfThreads) {
   const Blocks blocks;
-  ReconstructOptions options;
-  options.relax = 3;
-  options.simplify = 0.05;
   Reconstruction one, eight;
   const auto run = [&] {
-    return reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField, &blocks.example},
-                              options);
+    return reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField, &blocks.example});
   };
   tbb::task_arena(1).execute([&] { one = run(); });
   tbb::task_arena(8).execute([&] { eight = run(); });
@@ -124,12 +80,27 @@ TEST(ReconstructSurface, IsTheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(one.mesh.triangleMaterials, eight.mesh.triangleMaterials);
 }
 
-TEST(ReconstructSurface, BadOptionsAreRefused) {
+TEST(ReconstructSurface, RefusesOriginsOfAnotherSynthesis) {
   const Blocks blocks;
-  ReconstructOptions options;
-  options.simplify = -1;
-  EXPECT_THROW(reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField}, options),
-               InputError);
+  EXPECT_THAT(
+      [&] {
+        reconstructSurface(blocks.field, Origins({2, 2, 2}),
+                           {blocks.exampleField, &blocks.example});
+      },
+      testing::ThrowsMessage<InputError>(testing::HasSubstr("not of the field's size")));
+}
+
+TEST(ReconstructSurface, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  const Blocks blocks;
+  const auto plain = [&](const Progress& progress) {
+    reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField}, {}, progress);
+  };
+  expectReportsAndStops(plain, 20);
+  const auto dressed = [&](const Progress& progress) {
+    reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField, &blocks.example}, {},
+                       progress);
+  };
+  expectReportsAndStops(dressed, 40);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "reconstruct/smooth.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -12,11 +13,14 @@
 #include "reconstruct/adjacency.h"
 #include "reconstruct/field_to_mesh.h"
 #include "tests/reconstruct/fields.h"
+#include "tests/sdf/cancellation.h"
 
 namespace exemplar {
 namespace {
 
-/// Mean squared distance of the vertices from the middle of their neighbours.
+using testing::HasSubstr;
+
+/// Mean squared distance of the vertices from the middle of their neighbors.
 double roughness(const TriangleMesh& mesh) {
   const VertexCorners corners = vertexCorners(mesh.triangles, mesh.positions.size());
   double sum = 0;
@@ -186,9 +190,28 @@ TEST(Smooth, IsTheSameAtAnyNumberOfThreads) {
 
 TEST(Smooth, BadOptionsAreRefused) {
   TriangleMesh mesh = makeSphere({}, 1, 2);
-  EXPECT_THROW(smooth(mesh, {.iterations = -1}), InputError);
-  EXPECT_THROW(smooth(mesh, {.strength = 0.9}), InputError);
-  EXPECT_THROW(smooth(mesh, {.weights = {1, 2}}), InputError);
+  const auto refusal = [&](const SmoothOptions& options) -> std::string {
+    try {
+      smooth(mesh, options);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal({.iterations = -1}), HasSubstr("`iterations` is -1"));
+  EXPECT_THAT(refusal({.strength = 0.9}), HasSubstr("`strength` is 0.9"));
+  EXPECT_THAT(refusal({.weights = {1, 2}}), HasSubstr("2 weights for"));
+  EXPECT_THAT(refusal({.most = -1}), HasSubstr("`most` is -1"));
+}
+
+TEST(Smooth, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  const TriangleMesh mesh = noisy(makeTorus({}, {0, 0, 1}, 2, 0.8, 80, 40), 0.03);
+  expectReportsAndStops(
+      [&](const Progress& progress) {
+        TriangleMesh smoothed = mesh;
+        smooth(smoothed, {}, progress);
+      },
+      10);
 }
 
 TEST(SeamWeights, AreOneAtSeamsAndZeroAwayFromThem) {

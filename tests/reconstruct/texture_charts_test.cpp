@@ -71,11 +71,11 @@ std::string checkerPng() {
   return bytes;
 }
 
-TEST(SurfaceColor, MultipliesMaterialTextureAndVertexColour) {
+TEST(SurfaceColor, MultipliesMaterialTextureAndVertexColor) {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
-  // Texel centres: red above left, green above right, blue below left; rows come from the top.
+  // Texel centers: red above left, green above right, blue below left; rows come from the top.
   mesh.uvs = {{Vec2f{0.25f, 0.75f}, {0.75f, 0.75f}, {0.25f, 0.25f}}};
   mesh.textures = {{"checker.png", "image/png", checkerPng()}};
   mesh.materials.resize(1);
@@ -85,7 +85,7 @@ TEST(SurfaceColor, MultipliesMaterialTextureAndVertexColour) {
   EXPECT_EQ(SurfaceColor(mesh).at(0, {1, 0, 0}), (std::array<float, 4>{0.5f, 0, 0, 0.5f}));
   EXPECT_EQ(SurfaceColor(mesh).at(0, {0, 1, 0}), (std::array<float, 4>{0, 1, 0, 0.5f}));
   EXPECT_EQ(SurfaceColor(mesh).at(0, {0, 0, 1}), (std::array<float, 4>{0, 0, 1, 0.5f}));
-  // Half way between red and green.
+  // Halfway between red and green.
   const auto between = SurfaceColor(mesh).at(0, {0.5, 0.5, 0});
   EXPECT_NEAR(between[0], 0.25, 1e-6);
   EXPECT_NEAR(between[1], 0.5, 1e-6);

@@ -11,10 +11,10 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/origin.h"
 #include "mesh/image.h"
 #include "mesh/primitives.h"
 #include "reconstruct/field_to_mesh.h"
-#include "core/origin.h"
 #include "sdf/mesh_to_sdf.h"
 #include "tests/reconstruct/fields.h"
 
@@ -24,7 +24,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// A smooth colour that tells places apart.
+/// A smooth color that differs from place to place.
 std::array<float, 4> colorAt(const Vec3d& p) {
   return {static_cast<float>(0.5 + 0.4 * p.x), static_cast<float>(0.5 + 0.4 * p.y),
           static_cast<float>(0.5 + 0.4 * p.z), 1};
@@ -59,14 +59,14 @@ double colorError(const std::array<float, 4>& a, const std::array<float, 4>& b) 
   return worst;
 }
 
-TEST(TransferAppearance, IdentityOriginsGiveTheExamplesColoursBack) {
+TEST(TransferAppearance, IdentityOriginsGiveTheExamplesColorsBack) {
   TriangleMesh box = makeBox({{-1, -1, -1}, {1, 1, 1}});
   paintVertices(box, colorAt);
   Sample s(box, 32);
   transferAppearance(s.result, s.field, identityOrigins(s.field.size()), s.example, s.field);
   validate(s.result, "result");
   ASSERT_TRUE(s.result.hasColors());
-  // The colours are linear over each face, and where the surface is flat the nearest point is the
+  // The colors are linear over each face, and where the surface is flat the nearest point is the
   // foot: exact but for the result's own distance from the face, below a tenth of a voxel (0.0063)
   // away from the box's edges.
   for (std::size_t v = 0; v < s.result.positions.size(); ++v) {
@@ -78,7 +78,7 @@ TEST(TransferAppearance, IdentityOriginsGiveTheExamplesColoursBack) {
   }
 }
 
-TEST(TransferAppearance, ShiftedOriginsBringTheColoursAlong) {
+TEST(TransferAppearance, ShiftedOriginsBringTheColorsAlong) {
   TriangleMesh ball = makeSphere({}, 1, 16);
   paintVertices(ball, colorAt);
   Sample s(ball, 32);
@@ -101,7 +101,7 @@ TEST(TransferAppearance, ShiftedOriginsBringTheColoursAlong) {
   }
 }
 
-TEST(TransferAppearance, QuarterTurnsTurnTheColours) {
+TEST(TransferAppearance, QuarterTurnsTurnTheColors) {
   TriangleMesh box = makeBox({{-1, -0.6, -0.5}, {1, 0.6, 0.5}});
   paintVertices(box, colorAt);
   Sample s(box, 36);
@@ -124,7 +124,7 @@ TEST(TransferAppearance, QuarterTurnsTurnTheColours) {
     const Vec3d middleHere = field.box().center(), middleThere = s.field.box().center();
     for (std::size_t v = 0; v < result.positions.size(); ++v) {
       const Vec3d there = middleThere + turned(result.positions[v] - middleHere, -turns);
-      // Half a voxel is 0.028: the most the bevel of an edge takes from the colour's 0.4 a unit.
+      // Half a voxel is 0.028: the most the bevel of an edge takes from the color's 0.4 a unit.
       ASSERT_LT(colorError(result.colors[v], colorAt(there)), 0.02);
     }
   }
@@ -215,7 +215,7 @@ TEST(TransferAppearance, ABallFromTwoBallsHasOneMaterial) {
 }
 
 TEST(TransferAppearance, BallsThatTouchKeepTheirMaterials) {
-  // Two whole balls, their centres 19 voxels apart: one from each of the example's.
+  // Two whole balls, their centers 19 voxels apart: one from each of the example's.
   const Sample s = twoBalls();
   DistanceField field = s.field;
   field.values = Array3D<float>({45, 26, 26});
@@ -268,10 +268,10 @@ TEST(TransferAppearance, AThinWallKeepsItsTwoSidesApart) {
   EXPECT_GT(above, 100);
 }
 
-TEST(TransferAppearance, ColoursRunSmoothlyAcrossASeam) {
+TEST(TransferAppearance, ColorsRunSmoothlyAcrossASeam) {
   // A rod painted along its length; its right half comes from 0.5 further left: a jump of 0.2.
   TriangleMesh rod = makeCapsule({-1, 0, 0}, {1, 0, 0}, 0.4, 48);
-  // The colour must be linear along the rod's triangles, which reach from end to end.
+  // The color must be linear along the rod's triangles, which reach from end to end.
   paintVertices(rod, colorAt);
   Sample s(rod, 56);
   Origins origins = identityOrigins(s.field.size());
@@ -498,11 +498,14 @@ TEST(TransferAppearance, BadInputIsRefused) {
       },
       ThrowsMessage<InputError>(HasSubstr("origins")));
   const Origins origins = identityOrigins(s.field.size());
-  EXPECT_THROW(transferAppearance(s.result, s.field, origins, s.example, s.field, {.blend = 9}),
-               InputError);
-  EXPECT_THROW(
-      transferAppearance(s.result, s.field, origins, s.example, s.field, {.materialRounds = -1}),
-      InputError);
+  EXPECT_THAT(
+      [&] { transferAppearance(s.result, s.field, origins, s.example, s.field, {.blend = 9}); },
+      ThrowsMessage<InputError>(HasSubstr("`blend` is 9")));
+  EXPECT_THAT(
+      [&] {
+        transferAppearance(s.result, s.field, origins, s.example, s.field, {.materialRounds = -1});
+      },
+      ThrowsMessage<InputError>(HasSubstr("`materialRounds` is -1")));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "mesh/image.h"
 #include "mesh/mesh_health.h"
 #include "sdf/triangle_tree.h"
+#include "tests/sdf/cancellation.h"
 #include "tests/sdf/shapes.h"
 
 namespace exemplar {
@@ -267,24 +268,6 @@ TEST(HeightMapFile, DamagedBytesAreReadOrRefusedButNothingElse) {
   EXPECT_GT(refused, 100);
 }
 
-TEST(HeightMapToMesh, IsAClosedSolidWithTheHeightsOnTop) {
-  const HeightMap map = makeMap(7, 5, 0.5, hills);
-  const TriangleMesh mesh = heightMapToMesh(map, 0.75);
-  const MeshHealth health = meshHealth(mesh);
-  EXPECT_TRUE(health.closed());
-  EXPECT_TRUE(health.oriented());
-  EXPECT_GT(health.signedVolume, 0);
-  const Box3d box = boundingBox(mesh);
-  const auto [low, high] = std::minmax_element(map.heights.begin(), map.heights.end());
-  EXPECT_NEAR(length(box.min - Vec3d{0, 0, *low - 0.75}), 0, 1e-6);
-  EXPECT_NEAR(length(box.max - Vec3d{3, 2, *high}), 0, 1e-6);
-  // Row 0 is the north: the largest y.
-  EXPECT_TRUE(std::any_of(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3d& p) {
-    return length(p - Vec3d{1, 2, map.at(2, 0)}) < 1e-6;
-  }));
-  EXPECT_THAT(inputError([&] { heightMapToMesh(map, 0); }), HasSubstr("base"));
-}
-
 // The distance to the surface, by brute force over its triangles far past the map's sides.
 double exactDistance(const HeightMap& map, const Vec3d& p) {
   const auto mirror = [](int i, int n) {
@@ -436,6 +419,19 @@ TEST(SdfToHeightMap, PutsTheNorthFirst) {
   const HeightMap map = sdfToHeightMap(test::sampled(slope, {4, 10, 20}, 0.1, {0, 0, -0.5}, 10));
   EXPECT_NEAR(map.at(2, 0), 0.9, 1e-5);
   EXPECT_NEAR(map.at(2, 9), 0, 1e-5);
+}
+
+TEST(HeightMapToSdf, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  HeightMap map;
+  map.width = map.height = 40;
+  for (int p = 0; p < 40 * 40; ++p) {
+    map.heights.push_back(static_cast<float>(3 * std::sin(p % 40 * 0.3)));
+  }
+  DistanceField field;
+  expectReportsAndStops(
+      [&](const Progress& progress) { field = heightMapToSdf(map, {.resolution = 40}, progress); },
+      10);
+  expectReportsAndStops([&](const Progress& progress) { sdfToHeightMap(field, progress); }, 10);
 }
 
 TEST(HeightMapFile, RealTerrainIsRead) {

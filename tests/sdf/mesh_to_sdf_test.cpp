@@ -13,6 +13,7 @@
 #include "mesh/mesh_file.h"
 #include "mesh/primitives.h"
 #include "sdf/triangle_tree.h"
+#include "tests/sdf/cancellation.h"
 #include "tests/sdf/shapes.h"
 
 namespace exemplar {
@@ -119,7 +120,7 @@ std::pair<int, int> countParts(const DistanceField& field) {
   return {parts[1], parts[0]};
 }
 
-// The largest change between neighbours, in voxels: a distance changes by 1 at most.
+// The largest change between neighbors, in voxels: a distance changes by 1 at most.
 double steepest(const DistanceField& field) {
   const auto& v = field.values;
   double worst = 0;
@@ -247,7 +248,7 @@ TEST(MeshToSdf, HasGradientOneInTheBand) {
         if (std::abs(v(i, j, k)) > field.truncation - 1.1 * field.voxelSize) continue;
         const Vec3d g{v(i + 1, j, k) - v(i - 1, j, k), v(i, j + 1, k) - v(i, j - 1, k),
                       v(i, j, k + 1) - v(i, j, k - 1)};
-        // The band stays 4 voxels from the wire's centre, where curvature is 1 / 4 a voxel: central
+        // The band stays 4 voxels from the wire's center, where curvature is 1 / 4 a voxel: central
         // differences miss by (1 / 4)^2 / 6 = 0.01; facets of 0.4 voxels add as much.
         ASSERT_NEAR(length(g) / (2 * field.voxelSize), 1, 0.03);
         ++count;
@@ -330,7 +331,8 @@ TEST(MeshToSdf, MeasuresNoDistanceFromWhereTheBoxCutIt) {
     }
     EXPECT_GT(different, 0.3);  // deep in the ground, the cut is near
   }
-  EXPECT_THROW(meshToSdf(ground, {.padding = 1, .cutByBox = true}), InputError);
+  EXPECT_THAT(inputError([&] { meshToSdf(ground, {.padding = 1, .cutByBox = true}); }),
+              HasSubstr("`padding` must be 0"));
 }
 
 // Distance of the union of two spheres, also inside it.
@@ -467,7 +469,7 @@ TEST(MeshToSdf, FloodAgreesOnClosedMeshesHoweverTheyFace) {
   const DistanceField winding = meshToSdf(mesh, {.resolution = 40, .padding = 2});
   const DistanceField flood =
       meshToSdf(asSoup(mesh), {.resolution = 40, .padding = 2, .sign = SignSource::Flood});
-  // OpenVDB decides the sign of samples next to the surface by those of their neighbours.
+  // OpenVDB decides the sign of samples next to the surface by those of their neighbors.
   for (std::size_t s = 0; s < flood.values.count(); ++s) {
     const float a = flood.values.values()[s], b = winding.values.values()[s];
     ASSERT_NEAR(std::abs(a), std::abs(b), 1e-6);
@@ -545,9 +547,23 @@ TEST(MeshToSdf, IsTheSameAtAnyNumberOfThreads) {
     }
 }
 
-TEST(MeshToSdf, StopsWhenCancelled) {
-  const std::atomic<bool> cancel = true;
-  EXPECT_TRUE(meshToSdf(fineSphere(), {}, Progress({}, &cancel)).values.empty());
+TEST(MeshToSdf, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  // Spheres that cross each other; the same without some of their triangles; and each with
+  // every source of signs.
+  TriangleMesh crossing;
+  for (int s = 0; s < 5; ++s) append(crossing, makeSphere({0.4 * s, 0.2 * s, 0}, 0.5, 12));
+  TriangleMesh open = crossing;
+  open.triangles.resize(open.triangles.size() - 40);
+  for (const TriangleMesh* mesh : {&crossing, &open})
+    for (const SignSource sign :
+         {SignSource::WindingNumber, SignSource::Flood, SignSource::RayParity}) {
+      SCOPED_TRACE(static_cast<int>(sign));
+      expectReportsAndStops(
+          [&](const Progress& progress) {
+            meshToSdf(*mesh, {.resolution = 32, .padding = 2, .sign = sign}, progress);
+          },
+          20);
+    }
 }
 
 TEST(MeshToSdf, RefusesOptionsOutOfRangeInOneLine) {
@@ -555,21 +571,22 @@ TEST(MeshToSdf, RefusesOptionsOutOfRangeInOneLine) {
   const auto error = [&](const MeshToSdfOptions& options) {
     return inputError([&] { meshToSdf(mesh, options); });
   };
-  EXPECT_THAT(error({.resolution = 100000}), HasSubstr("resolution is 100000; it must be 1..4096"));
-  EXPECT_THAT(error({.resolution = 0}), HasSubstr("resolution is 0"));
-  EXPECT_THAT(error({.voxelSize = -1}), HasSubstr("voxelSize is -1"));
-  EXPECT_THAT(error({.voxelSize = std::nan("")}), HasSubstr("voxelSize"));
-  EXPECT_THAT(error({.voxelSize = kInfinity}), HasSubstr("voxelSize"));
-  EXPECT_THAT(error({.padding = -1}), HasSubstr("padding is -1"));
-  EXPECT_THAT(error({.halfWidth = 0}), HasSubstr("halfWidth is 0"));
-  EXPECT_THAT(error({.halfWidth = std::nan("")}), HasSubstr("halfWidth"));
+  EXPECT_THAT(error({.resolution = 100000}),
+              HasSubstr("`resolution` is 100000; it must be 1..4096"));
+  EXPECT_THAT(error({.resolution = 0}), HasSubstr("`resolution` is 0"));
+  EXPECT_THAT(error({.voxelSize = -1}), HasSubstr("`voxelSize` is -1"));
+  EXPECT_THAT(error({.voxelSize = std::nan("")}), HasSubstr("`voxelSize` is"));
+  EXPECT_THAT(error({.voxelSize = kInfinity}), HasSubstr("`voxelSize` is"));
+  EXPECT_THAT(error({.padding = -1}), HasSubstr("`padding` is -1"));
+  EXPECT_THAT(error({.halfWidth = 0}), HasSubstr("`halfWidth` is 0"));
+  EXPECT_THAT(error({.halfWidth = std::nan("")}), HasSubstr("`halfWidth` is nan"));
   EXPECT_THAT(error({.box = Box3d{}}), HasSubstr("box"));
   EXPECT_THAT(error({.box = Box3d{{0, 0, 0}, {kInfinity, 1, 1}}}), HasSubstr("box"));
   EXPECT_THAT(error({.box = Box3d{{1, 1, 1}, {1, 1, 1}}}), HasSubstr("box"));
   for (const MeshToSdfOptions& options :
        {MeshToSdfOptions{.voxelSize = 1e-5}, MeshToSdfOptions{.voxelSize = 1e-300},
         MeshToSdfOptions{.resolution = 4096}, MeshToSdfOptions{.padding = 2000000000}}) {
-    EXPECT_THAT(error(options), HasSubstr("lower resolution"));
+    EXPECT_THAT(error(options), HasSubstr("lower `resolution`"));
     EXPECT_THAT(error(options), testing::Not(HasSubstr("\n")));
   }
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/sdf/cancellation.h"
 #include "tests/sdf/shapes.h"
 
 namespace exemplar {
@@ -173,6 +174,81 @@ TEST(Redistance, IsTheSameAtAnyNumberOfThreads) {
 TEST(Redistance, RefusesABandOfNoWidth) {
   const DistanceField field{Array3D<float>({2, 2, 2}, 1), 1, {}, 1};
   EXPECT_THAT(inputError([&] { redistance(field, {.halfWidth = 0}); }), HasSubstr("halfWidth"));
+}
+
+TEST(Redistance, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  const DistanceField field = warped(test::sphere({0, 0, 0}, 0.7), 32);
+  expectReportsAndStops([&](const Progress& progress) { redistance(field, {}, progress); }, 10);
+}
+
+// A ball whose halves are a voxel and a half apart, and the shape that each half has.
+struct SteppedBall {
+  Shape left = test::sphere({0, 0, 0}, 0.6), right = test::sphere({0, 0.1, 0}, 0.6);
+  DistanceField field =
+      test::sampled([this](const Vec3d& p) { return p.x < 0 ? left(p) : right(p); }, {30, 30, 30},
+                    2.0 / 30, Vec3d{-1, -1, -1} + Vec3d{1, 1, 1} / 30, 10);
+};
+
+TEST(RedistanceJumps, ChangesOnlyWhatIsNearAJumpAndKeepsEverySign) {
+  const SteppedBall ball;
+  const DistanceField result = redistanceJumps(ball.field);
+  int changed = 0;
+  for (std::size_t s = 0; s < result.values.count(); ++s) {
+    const float before = ball.field.values.values()[s], after = result.values.values()[s];
+    ASSERT_EQ(before < 0, after < 0);
+    if (before == after) continue;
+    ++changed;
+    // Two samples around the step between the halves, and no farther from a crossing.
+    EXPECT_LE(std::abs(result.values.ijk(s).x - 14.5), 2.5);
+  }
+  EXPECT_GT(changed, 50);
+  // A distance has no jumps to correct.
+  const DistanceField whole = redistance(ball.field);
+  EXPECT_EQ(redistanceJumps(whole).values, whole.values);
+}
+
+TEST(RedistanceJumps, MeasuresToTheZeroSet) {
+  const SteppedBall ball;
+  const DistanceField jumps = redistanceJumps(ball.field);
+  const DistanceField whole = redistance(ball.field, {.halfWidth = 4});
+  for (std::size_t s = 0; s < jumps.values.count(); ++s) {
+    const float v = jumps.values.values()[s];
+    if (v == ball.field.values.values()[s]) continue;
+    EXPECT_EQ(v, whole.values.values()[s]);
+  }
+}
+
+TEST(RedistanceJumps, SeesAcrossTheFacesOfAPeriodicField) {
+  // The same field moved around by half its size along x and y: the same values, moved.
+  const SteppedBall ball;
+  const auto moved = [](const DistanceField& field) {
+    DistanceField result = field;
+    const Vec3i n = field.size();
+    for (std::size_t s = 0; s < field.values.count(); ++s) {
+      const Vec3i p = field.values.ijk(s);
+      result.values((p.x + n.x / 2) % n.x, (p.y + n.y / 2) % n.y, p.z) = field.values.values()[s];
+    }
+    return result;
+  };
+  const Axes wraps{true, true, false};
+  const Array3D<float> expected = moved(redistanceJumps(ball.field, wraps)).values;
+  const Array3D<float> actual = redistanceJumps(moved(ball.field), wraps).values;
+  // Positions are other numbers, so that roundings differ.
+  for (std::size_t s = 0; s < actual.count(); ++s)
+    ASSERT_NEAR(actual.values()[s], expected.values()[s], 1e-6);
+  EXPECT_NE(redistanceJumps(moved(ball.field)).values, actual);
+}
+
+TEST(RedistanceJumps, IsTheSameAtAnyNumberOfThreads) {
+  const SteppedBall ball;
+  const auto run = [&] { return redistanceJumps(ball.field, Axes::every()).values; };
+  EXPECT_EQ(withThreads(1, run), withThreads(8, run));
+}
+
+TEST(RedistanceJumps, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  const SteppedBall ball;
+  const auto run = [&](const Progress& progress) { redistanceJumps(ball.field, {}, progress); };
+  expectReportsAndStops(run, 10);
 }
 
 TEST(ZeroSet, IsClosedAndFacesOutside) {

@@ -117,17 +117,6 @@ TEST(SampleTrilinear, IsConstantBeyondTheOuterSamples) {
             noise({1, 1, 1}, 10).values(0, 0, 0));
 }
 
-TEST(Truncated, ClampsAndSaysSo) {
-  const DistanceField field = noise({9, 9, 9}, 11);
-  const DistanceField cut = truncated(field, 0.5f);
-  EXPECT_EQ(cut.truncation, 0.5f);
-  for (std::size_t s = 0; s < field.values.count(); ++s)
-    ASSERT_EQ(cut.values.values()[s], std::clamp(field.values.values()[s], -0.5f, 0.5f));
-  EXPECT_EQ(truncated(field, 2.0f).truncation, 1.0f);
-  EXPECT_THAT(inputError([&] { truncated(field, 0); }), HasSubstr("truncation"));
-  EXPECT_THAT(inputError([&] { truncated(field, std::nanf("")); }), HasSubstr("truncation"));
-}
-
 TEST(Quantize, ErrsByAtMostHalfAStepInsideTheRange) {
   const DistanceField field = noise({16, 16, 16}, 12);
   const float range = 0.75f;

@@ -98,7 +98,7 @@ TriangleMesh without(const Box3d& box, int axis, double end) {
 }
 
 TEST(SolidTest, OpenComponentsNeitherTakeFromOthersNorAddToThem) {
-  // A slab without its bottom in which stands a box without its bottom.
+  // A slab without its bottom that contains a box without its bottom.
   TriangleMesh mesh = without({{0, 0, 0}, {40, 40, 2}}, 2, 0);
   append(mesh, without({{15, 15, 1}, {25, 25, 12}}, 2, 1));
   const TriangleSoup soup = makeSoup(mesh, {}, 1);

@@ -86,7 +86,7 @@ TEST(TrianglesOverlap, AgreesWithSamplingOnRandomTriangles) {
     nearest = std::sqrt(nearest);
     const bool answer = overlap(a, b);
     EXPECT_EQ(trianglesMeet(a, b), answer);  // no two random ones only touch
-    // Samples stand up to 1.7 / 120 from any point of b.
+    // Samples are up to 1.7 / 120 from any point of b.
     if (nearest > 0.03) {
       EXPECT_FALSE(answer);
       ++apart;

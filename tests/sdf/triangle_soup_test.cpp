@@ -44,7 +44,7 @@ TEST(TriangleSoup, JoinsEqualPositionsAlsoZerosOfBothSigns) {
   EXPECT_TRUE(soup.closed);
   EXPECT_TRUE(soup.even);
   EXPECT_EQ(soup.componentClosed, std::vector<std::uint8_t>{1});
-  for (const auto& n : soup.neighbours)
+  for (const auto& n : soup.neighbors)
     for (const std::uint32_t u : n) EXPECT_NE(u, TriangleSoup::kNone);
 }
 
@@ -82,7 +82,7 @@ TEST(TriangleSoup, CountsEqualTrianglesOnceAndOppositeOnesNotAtAll) {
   EXPECT_GT(cross(b - a, c - a).z, 0);
 }
 
-TEST(TriangleSoup, TurnsFlippedTrianglesLikeTheirNeighbours) {
+TEST(TriangleSoup, TurnsFlippedTrianglesLikeTheirNeighbors) {
   TriangleMesh mesh = split(makeTorus({}, {0, 0, 1}, 0.7, 0.25));
   const double before = volume(makeSoup(mesh, {}, 1));
   const Random random(1);
@@ -139,7 +139,7 @@ TEST(TriangleSoup, BoxesThatShareAnEdgeAreClosed) {
   EXPECT_TRUE(soup.closed);
   EXPECT_EQ(soup.points.size(), 14u);
   int without = 0;
-  for (const auto& n : soup.neighbours)
+  for (const auto& n : soup.neighbors)
     for (const std::uint32_t u : n) without += u == TriangleSoup::kNone;
   EXPECT_EQ(without, 4);
 }

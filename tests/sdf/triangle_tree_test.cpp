@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -53,31 +54,6 @@ double exactWinding(const std::vector<Corners>& triangles, const Vec3d& p) {
                       la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
   return sum / (2 * std::numbers::pi);
-}
-
-TEST(SquaredDistance, IsTheSmallestOverTheTriangle) {
-  const auto triangles = randomTriangles(60, 1);
-  for (int trial = 0; trial < 60; ++trial) {
-    const Corners& t = triangles[trial];
-    const Vec3d p = randomPoint(trial);
-    const double d = std::sqrt(squaredDistance(p, t));
-    double sampled = kInfinity;
-    constexpr int n = 200;
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; i + j <= n; ++j) {
-        const Vec3d q = t[0] + (t[1] - t[0]) * (double(i) / n) + (t[2] - t[0]) * (double(j) / n);
-        sampled = std::min(sampled, length(p - q));
-      }
-    EXPECT_LE(d, sampled + 1e-12);
-    EXPECT_GE(d, sampled - 0.5 / n);  // edges are below 0.5 long
-  }
-}
-
-TEST(SquaredDistance, AnswersForTrianglesWithoutArea) {
-  const Vec3d p{0, 1, 0};
-  EXPECT_DOUBLE_EQ(squaredDistance(p, {Vec3d{-1, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 0, 0}}), 1);
-  EXPECT_DOUBLE_EQ(squaredDistance(p, {Vec3d{2, 1, 0}, Vec3d{2, 1, 0}, Vec3d{2, 1, 0}}), 4);
-  EXPECT_DOUBLE_EQ(squaredDistance(p, {Vec3d{1, 1, 0}, Vec3d{1, 1, 0}, Vec3d{3, 1, 0}}), 1);
 }
 
 TEST(TriangleTree, FindsTheNearestTriangleExactly) {
@@ -217,6 +193,37 @@ TEST(TriangleTree, KeepsManyTrianglesAtOnePlaceApart) {
   const TriangleTree tree(
       std::vector<Corners>(5000, Corners{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}));
   EXPECT_DOUBLE_EQ(tree.distance({0.2, 0.2, 3}, kInfinity), 3);
+}
+
+TEST(TriangleTree, VisitsWhateverMayBeNear) {
+  const auto triangles = randomTriangles(300, 8);
+  for (const TriangleTree::Answers answers :
+       {TriangleTree::Answers::All, TriangleTree::Answers::Near}) {
+    const TriangleTree tree(triangles, {}, answers);
+    for (int trial = 0; trial < 100; ++trial) {
+      const Vec3d p = randomPoint(trial);
+      std::vector<std::uint8_t> visited(triangles.size());
+      constexpr double kWithin2 = 0.04;
+      tree.visitNear(p, kWithin2, [&](std::uint32_t t, const Corners& corners, double within2) {
+        EXPECT_EQ(corners, triangles[t]);
+        ++visited[t];
+        return within2;
+      });
+      std::size_t far = 0;
+      for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (squaredDistance(p, triangles[t]) < kWithin2) {
+          EXPECT_EQ(visited[t], 1) << t;
+        }
+        far += visited[t] == 0;
+      }
+      EXPECT_GT(far, 0u);
+    }
+  }
+}
+
+TEST(TriangleTree, StopsBuildingWhereItIsCancelled) {
+  const std::atomic<bool> cancel = true;
+  EXPECT_THROW(TriangleTree(randomTriangles(20, 1), Progress({}, &cancel)), Cancelled);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/LevelSetUtil.h>
 
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -18,6 +17,7 @@
 #include <string>
 
 #include "core/file.h"
+#include "tests/sdf/cancellation.h"
 #include "tests/sdf/shapes.h"
 
 namespace exemplar {
@@ -57,13 +57,13 @@ TEST(VdbFile, ComesBackToTheLastBit) {
   }
 }
 
-TEST(VdbFile, TellsAlongWhichAxesAFieldGoesRound) {
+TEST(VdbFile, RecordsTheAxesAlongWhichAFieldIsPeriodic) {
   const TemporaryFolder folder;
-  for (const std::array<bool, 3> told : {std::array{true, false, true}, {false, false, false}}) {
-    writeVdb(folder / "field.vdb", torusField(0.18), told);
-    std::array<bool, 3> wraps{true, true, true};
+  for (const Axes& recorded : {Axes{true, false, true}, Axes::none()}) {
+    writeVdb(folder / "field.vdb", torusField(0.18), recorded);
+    Axes wraps = Axes::every();
     expectSame(readVdb(folder / "field.vdb", &wraps), torusField(0.18));
-    EXPECT_EQ(wraps, told);
+    EXPECT_EQ(wraps, recorded);
   }
 }
 
@@ -126,7 +126,7 @@ TEST(VdbFile, TheSameFieldGivesTheSameBytes) {
   writeVdb(folder / "b.vdb", torusField(0.18));
   writeVdb(folder / "c.vdb", torusField(0.12));
   EXPECT_EQ(readFile(folder / "a.vdb"), readFile(folder / "b.vdb"));
-  // The id that stands for the content tells different ones apart.
+  // The id that is made from the content distinguishes different ones.
   EXPECT_NE(readFile(folder / "a.vdb").substr(21, 36), readFile(folder / "c.vdb").substr(21, 36));
 }
 
@@ -319,6 +319,30 @@ TEST(VdbFile, RefusesOriginsThatAreNone) {
   sources->tree().setValue({5, 0, 0}, 1);
   write();
   EXPECT_THAT(inputError([&] { readOriginsVdb(folder / "bad.vdb"); }), HasSubstr("differ"));
+}
+
+TEST(VdbFile, ReportsItsProgressAndStopsWhereItIsCancelled) {
+  const TemporaryFolder folder;
+  const DistanceField field = torusField(0.18);
+  const std::filesystem::path path = folder / "field.vdb", origins = folder / "origins.vdb";
+  expectReportsAndStops([&](const Progress& p) { writeVdb(path, field, {}, p); }, 4);
+  expectReportsAndStops([&](const Progress& p) { readVdb(path, nullptr, p); }, 4);
+  const Origins from(field.size(), Origin(Vec3i{1, 2, 3}));
+  expectReportsAndStops([&](const Progress& p) { writeOriginsVdb(origins, from, field, p); }, 4);
+  expectReportsAndStops([&](const Progress& p) { readOriginsVdb(origins, p); }, 4);
+}
+
+TEST(VdbFile, ACancelledWriteLeavesWhatWasThere) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "field.vdb";
+  writeVdb(path, torusField(0.18));
+  const std::string before = readFile(path);
+  for (std::size_t reports = 0; reports < 4; ++reports) {
+    EXPECT_TRUE(
+        stopsAfter(reports, [&](const Progress& p) { writeVdb(path, torusField(0.15), {}, p); }));
+    EXPECT_EQ(readFile(path), before);
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1);
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "mesh/triangle_mesh.h"
+#include "reconstruct/pull.h"
+#include "reconstruct/transfer.h"
+#include "reconstruct/triangle_sources.h"
+
+namespace exemplar {
+
+// For surfaces that keep the example's textures: each triangle has the material and the texture
+// coordinates of one place of the example. The same bytes at any number of threads; both throw
+// `Cancelled`.
+
+/// Gives every triangle a material, with borders where the example has them. `sources` follow: a
+/// piece of a cut triangle comes from where its triangle did, but from a triangle of its material.
+void transferTriangleMaterials(TriangleMesh& result, const OriginPullView& pull,
+                               const ExampleAttributes& attributes,
+                               std::span<const ExampleView> examples,
+                               const TransferOptions& options, const Progress& progress,
+                               TriangleSources& sources);
+
+/// Gives each corner texture coordinates, looked up where the triangle's motion takes it but inside
+/// the chart of the triangle's middle. `normals`: a unit normal per vertex.
+void transferCoordinates(TriangleMesh& result, const std::vector<Vec3d>& normals,
+                         const OriginPullView& pull, const ExampleAttributes& attributes,
+                         std::span<const ExampleView> examples, const Progress& progress,
+                         TriangleSources sources);
+
+}  // namespace exemplar
