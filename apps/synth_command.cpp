@@ -172,6 +172,7 @@ void synth(const Options& options, Terminal& terminal) {
       writeResult(options.output, result, examples, surface ? &*surface : nullptr, plan.output,
                   progress.part(0.85, 0.9));
   terminal.wrote(written.label, options.output, written.text);
+  for (const std::string& warning : written.warnings) terminal.warn(warning);
   if (!options.preview.empty()) {
     writePng(options.preview, render(surface->mesh, plan.picture, progress.part(0.9, 0.95)));
     terminal.wrote("picture", options.preview, options.preview);

@@ -46,6 +46,7 @@ void voxelize(const Options& options, Terminal& terminal) {
                              withThousands(static_cast<long long>(grid.cells.count())) +
                              " cells not empty");
   terminal.wrote(written.label, options.output, written.text);
+  for (const std::string& warning : written.warnings) terminal.warn(warning);
 }
 
 }  // namespace

@@ -111,6 +111,13 @@ Example readExample(const Source& source, const ReadOptions& options, const Prog
   return example;
 }
 
+Scene readSceneOf(const Source& source, const ReadOptions& options, const Progress& progress) {
+  const SceneOptions scene{.seed = options.sceneSeed};
+  if (const std::string* bytes = source.inMemory<std::string>())
+    return readScene(*bytes, source.name(), scene, progress);
+  return readScene(findScene(source.name()), scene, progress);
+}
+
 std::vector<Example> readExamples(std::span<const Source> sources, const ReadOptions& options,
                                   const Progress& progress) {
   if (sources.empty()) throw InputError("there is no example");

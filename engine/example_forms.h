@@ -7,6 +7,7 @@
 
 #include "core/progress.h"
 #include "engine/example.h"
+#include "mesh/scene.h"
 
 /// The two ways of reading an example; what `readExample` calls.
 namespace exemplar {
@@ -14,6 +15,9 @@ namespace exemplar {
 /// Fills the example whose source, kind and reading options are set, as distances or as labels.
 void readAsField(Example& example, const Progress& progress);
 void readAsLabels(Example& example, const Progress& progress);
+
+/// The scene of a file or its bytes.
+Scene readSceneOf(const Source& source, const ReadOptions& options, const Progress& progress);
 
 /// Samples an example with the voxels of `first`. Throws `InputError` for a volume of others.
 void sampleAlike(Example& example, const Example& first, const Progress& progress);

@@ -43,13 +43,13 @@ int usualResolution(const Scene& scene) {
 
 void sampleScene(Example& example, const Progress& progress) {
   const ReadOptions& options = example.reading;
-  Scene scene = readScene(findScene(example.name()), {.seed = options.sceneSeed});
+  Scene scene = readSceneOf(example.source, options, progress.part(0, 0.2));
   example.data = meshToSdf(scene.mesh,
                            {.resolution = options.resolution.value_or(usualResolution(scene)),
                             .box = scene.box,
                             .padding = options.padding.value_or(0),
                             .halfWidth = kExampleHalfWidth},
-                           progress);
+                           progress.part(0.2, 1));
   example.description = "scene " + scene.name + ", " + triangleCount(scene.mesh);
   example.hints = {scene.scale, scene.block};
   example.mesh = std::move(scene.mesh);
@@ -57,7 +57,9 @@ void sampleScene(Example& example, const Progress& progress) {
 
 void sampleMesh(Example& example, const Progress& progress) {
   const ReadOptions& options = example.reading;
-  TriangleMesh mesh = readTriangles(example.source, options.mesh);
+  MeshFileOptions file = options.mesh;
+  file.warnings = &example.warnings;
+  TriangleMesh mesh = readTriangles(example.source, file, progress.part(0, 0.2));
   const int resolution = options.resolution.value_or(kDefaultResolution);
   const int padding = options.padding.value_or(kDefaultPadding);
   const Vec3d size = boundingBox(mesh).size();
@@ -67,7 +69,7 @@ void sampleMesh(Example& example, const Progress& progress) {
                            {.voxelSize = std::max({size.x, size.y, size.z}) / inner,
                             .padding = padding,
                             .halfWidth = kExampleHalfWidth},
-                           progress);
+                           progress.part(0.2, 1));
   if (size.x < kPanelThinness * size.y) example.hints.scale.x = 1;
   if (size.y < kPanelThinness * size.x) example.hints.scale.y = 1;
   example.description = "mesh of " + triangleCount(mesh);
@@ -76,18 +78,22 @@ void sampleMesh(Example& example, const Progress& progress) {
 
 void sampleHeights(Example& example, const Progress& progress) {
   const ReadOptions& options = example.reading;
-  example.heights.cellSize = options.cellSize;
-  example.heights.heightScale = options.heightScale.value_or(example.heights.heightScale);
-  const HeightMap map = readHeights(example.source, example.heights);
-  progress.report("sampling heights", 0.1);
-  example.data = heightMapToSdf(map, {.resolution = options.resolution.value_or(kDefaultResolution),
-                                      .halfWidth = kExampleHalfWidth});
+  const HeightMap map = readHeights(example.source,
+                                    {.cellSize = options.cellSize,
+                                     .heightScale = options.heightScale,
+                                     .warnings = &example.warnings},
+                                    progress.part(0, 0.3));
+  example.heightSteps = map.steps;
+  example.data = heightMapToSdf(map,
+                                {.resolution = options.resolution.value_or(kDefaultResolution),
+                                 .halfWidth = kExampleHalfWidth},
+                                progress.part(0.3, 1));
   example.description =
       "height map of " + withThousands(map.width) + " x " + withThousands(map.height) + " points";
 }
 
-void takeVolume(Example& example, const Progress&) {
-  example.data = readDistances(example.source, &example.continues);
+void takeVolume(Example& example, const Progress& progress) {
+  example.data = readDistances(example.source, &example.continues, progress);
   example.hints.scale = {2, 2, 2};
   example.description = "volume";
   if (example.continues.any())

@@ -28,14 +28,16 @@ struct GriddedMesh {
   std::string what;
 };
 
-GriddedMesh readGriddedMesh(const Example& example) {
+GriddedMesh readGriddedMesh(Example& example, const Progress& progress) {
   GriddedMesh gridded;
   if (example.kind == SourceKind::Mesh) {
-    gridded.mesh = readTriangles(example.source, example.reading.mesh);
+    MeshFileOptions file = example.reading.mesh;
+    file.warnings = &example.warnings;
+    gridded.mesh = readTriangles(example.source, file, progress);
     gridded.what = "mesh";
     return gridded;
   }
-  Scene scene = readScene(findScene(example.name()), {.seed = example.reading.sceneSeed});
+  Scene scene = readSceneOf(example.source, example.reading, progress);
   gridded.mesh = std::move(scene.mesh);
   gridded.box = scene.box;
   gridded.cell = scene.cell;
@@ -57,14 +59,14 @@ void fromField(Example& example, const Progress& progress) {
 
 void fromMesh(Example& example, const Progress& progress) {
   const ReadOptions& options = example.reading;
-  GriddedMesh source = readGriddedMesh(example);
+  GriddedMesh source = readGriddedMesh(example, progress.part(0, 0.2));
   const Box3d box = source.box.value_or(boundingBox(source.mesh));
   Vec3d cell = source.cell.value_or(Vec3d{});
   if (options.cell) {
     cell = *options.cell;
   } else if (!source.cell || options.resolution) {
     if (!options.voxels) {
-      fromField(example, progress);
+      fromField(example, progress.part(0.2, 1));
       return;
     }
     const Vec3d size = box.size();
@@ -75,23 +77,24 @@ void fromMesh(Example& example, const Progress& progress) {
   example.hints.scale = source.scale;
   const int air = options.air.value_or(source.box ? 0 : 1);
   if (options.voxels) {
-    example.data = meshToLabels(
-        source.mesh, {.cellSize = cell, .box = box, .air = air, .fill = options.fill}, progress);
+    example.data =
+        meshToLabels(source.mesh, {.cellSize = cell, .box = box, .air = air, .fill = options.fill},
+                     progress.part(0.2, 1));
     example.description = "voxels of a " + source.what;
     return;
   }
   ModelPieces pieces = cutIntoPieces(
       source.mesh, {.cellSize = cell, .box = box, .air = air, .tolerance = options.tolerance},
-      progress);
+      progress.part(0.2, 1));
   example.data = pieces.grid;
   example.content = std::move(pieces);
   example.mesh = std::move(source.mesh);
   example.description = "cut from a " + source.what;
 }
 
-void fromPicture(Example& example) {
+void fromPicture(Example& example, const Progress& progress) {
   ImageLabels image = labelsFromImage(decodeImage(readBytes(example.source), example.name()),
-                                      example.name(), example.reading.image);
+                                      example.name(), example.reading.image, progress);
   example.data = image.grid;
   example.content = std::move(image);
   example.description = "from a picture";
@@ -126,14 +129,14 @@ void readAsLabels(Example& example, const Progress& progress) {
       fromMesh(example, progress);
       break;
     case SourceKind::Picture:
-      fromPicture(example);
+      fromPicture(example, progress);
       break;
     case SourceKind::HeightMap:
     case SourceKind::Volume:
       fromField(example, progress);
       break;
     case SourceKind::Labels:
-      example.data = readLabelGrid(example.source);
+      example.data = readLabelGrid(example.source, progress);
       example.description = "grid of labels";
       break;
   }

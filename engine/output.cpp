@@ -62,28 +62,47 @@ Written writeFrames(const fs::path& path, const Result& result, const Example& e
     for (const LabelGrid* grid : frames)
       images.push_back(frameImage(*grid, example, options.picture, share(images.size())));
     writeGif(path, images);
-    return {"written", path.string() + ": " + std::to_string(frames.size()) + " frames"};
+    return {"written", path.string() + ": " + std::to_string(frames.size()) + " frames", {}};
   }
   for (std::size_t n = 0; n < frames.size(); ++n)
     writeLabels(framePath(path, n), *frames[n], example, options, share(n));
   return {"written",
-          framePath(path, 0).string() + " to " + framePath(path, frames.size() - 1).string()};
+          framePath(path, 0).string() + " to " + framePath(path, frames.size() - 1).string(),
+          {}};
 }
 
-Written writeField(const fs::path& path, const Result& result, const Example& example) {
+Written writeField(const fs::path& path, const Result& result, const Example& example,
+                   const Progress& progress) {
+  Written written{"field", path.string(), {}};
   if (isHeightMapFile(path)) {
-    writeHeightMap(path, sdfToHeightMap(result.field()), example.heights);
-    return {"heights", path.string()};
+    written.label = "heights";
+    HeightMap map = sdfToHeightMap(result.field(), progress.part(0, 0.5));
+    map.steps = example.heightSteps;
+    writeHeightMap(path, map,
+                   {.heightScale = example.reading.heightScale, .warnings = &written.warnings},
+                   progress.part(0.5, 1));
+  } else {
+    writeVdb(path, result.field(), result.periodic, progress);
   }
-  writeVdb(path, result.field(), result.periodic);
-  return {"field", path.string()};
+  return written;
+}
+
+/// Triangles as a file of meshes.
+Written writeTriangles(const fs::path& path, const TriangleMesh& mesh, const MeshHealth& health,
+                       const char* label, const MeshFileOptions& options,
+                       const Progress& progress) {
+  Written written{label, path.string() + ": " + readableHealth(health), {}};
+  MeshFileOptions file = options;
+  file.warnings = &written.warnings;
+  writeMesh(path, mesh, file, progress);
+  return written;
 }
 
 }  // namespace
 
 const char* outputEndings(Form form) {
-  return form == Form::Field ? ".obj .ply .stl .off .glb .vdb .png .pgm .asc"
-                             : ".txt .vox .vdb .png .obj .ply .stl .off .glb .gif";
+  return form == Form::Field ? ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc"
+                             : ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf .gif";
 }
 
 void requireOutput(const fs::path& path, const std::string& endings) {
@@ -116,11 +135,11 @@ Written writeResult(const fs::path& path, const Result& result, std::span<const 
   const Example& example = examples.front();
   progress.report("writing " + path.string(), 0);
   if (surface && needsSurface(path, result, options)) {
-    writeMesh(path, surface->mesh, options.mesh);
-    return {result.form() == Form::Field ? "mesh" : "written",
-            path.string() + ": " + readableHealth(surface->health)};
+    return writeTriangles(path, surface->mesh, surface->health,
+                          result.form() == Form::Field ? "mesh" : "written", options.mesh,
+                          progress);
   }
-  if (result.form() == Form::Field) return writeField(path, result, example);
+  if (result.form() == Form::Field) return writeField(path, result, example, progress);
   if (!result.laterFrames.empty()) return writeFrames(path, result, example, options, progress);
   return writeLabels(path, result.labels(), example, options, progress);
 }
@@ -131,29 +150,32 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
   if (options.instances) {
     if (!pieces || !endsWith(path, ".glb"))
       throw InputError("`instances`: only a .glb of model pieces (of a mesh) has instances");
-    const std::size_t placed = writePieceInstances(path, grid, *pieces);
+    const std::size_t placed = writePieceInstances(path, grid, *pieces, progress);
     return {"written",
-            path.string() + ": " + withThousands(static_cast<long long>(placed)) + " instances"};
+            path.string() + ": " + withThousands(static_cast<long long>(placed)) + " instances",
+            {}};
   }
   if (isMeshFile(path)) {
-    const TriangleMesh mesh = realizeLabels(grid, example, progress);
-    writeMesh(path, mesh, options.mesh);
-    return {"written", path.string() + ": " + readableHealth(meshHealth(mesh))};
+    const TriangleMesh mesh = realizeLabels(grid, example, progress.part(0, 0.6));
+    const MeshHealth health = meshHealth(mesh, progress.part(0.6, 0.8));
+    return writeTriangles(path, mesh, health, "written", options.mesh, progress.part(0.8, 1));
   }
   if (const auto* labeled = std::get_if<LabeledField>(&example.content);
       labeled && endsWith(path, ".vdb")) {
-    const PlacedBlocks placed = placeBlocks(labeled->field, labeled->blocks, grid.cells);
-    writeVdb(path, placed.field);
+    const PlacedBlocks placed =
+        placeBlocks(labeled->field, labeled->blocks, grid.cells, progress.part(0, 0.5));
+    writeVdb(path, placed.field, {}, progress.part(0.5, 1));
     return {"written",
-            path.string() + ": distances, " + readableSize(placed.field.size(), "samples")};
+            path.string() + ": distances, " + readableSize(placed.field.size(), "samples"),
+            {}};
   }
   if (const auto* image = std::get_if<ImageLabels>(&example.content);
       image && endsWith(path, ".png")) {
-    writePng(path, imageFromLabels(grid, *image));
+    writePng(path, imageFromLabels(grid, *image, progress));
   } else {
-    writeLabels(path, grid);
+    writeLabels(path, grid, progress);
   }
-  return {"written", path.string() + ": " + readableSize(grid.size(), "cells")};
+  return {"written", path.string() + ": " + readableSize(grid.size(), "cells"), {}};
 }
 
 }  // namespace exemplar

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/progress.h"
+#include "core/warnings.h"
 #include "engine/example.h"
 #include "engine/realize.h"
 #include "engine/result.h"
@@ -20,9 +21,10 @@ namespace exemplar {
 /// The endings that a result of a form is written to: ".obj .ply ...".
 const char* outputEndings(Form form);
 /// The endings that `writeMesh` knows.
-inline constexpr const char* kMeshEndings = ".obj .ply .stl .off .glb";
+inline constexpr const char* kMeshEndings = ".obj .ply .stl .off .glb .gltf";
 /// The endings that grids of labels are written to.
-inline constexpr const char* kLabelOutputEndings = ".txt .vox .vdb .png .obj .ply .stl .off .glb";
+inline constexpr const char* kLabelOutputEndings =
+    ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf";
 
 /// Refuses an output whose ending is none of `endings` (".obj .ply"), or whose folder does not
 /// exist or cannot be written, before any work is done.
@@ -45,6 +47,7 @@ bool needsSurface(const std::filesystem::path& path, const Result& result,
 struct Written {
   std::string label;  ///< "mesh", "field", "heights", "written"
   std::string text;   ///< "out.glb: 12,345 triangles, closed, ..."
+  Warnings warnings;  ///< what the format cannot hold
 };
 
 /// Writes a complete result in the format of the path's ending, whole or not at all. `surface` is

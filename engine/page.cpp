@@ -46,10 +46,10 @@ PageParts pageParts(const TriangleMesh& mesh, const DistanceField* example,
   ViewSource source{mesh};
   Array3D<float> jumps;
   if (example && field && origins) {
-    progress.report("finding what shows", 0);
-    jumps = seamJumps(*example, *field, *origins);
+    jumps = seamJumps(*example, *field, *origins, 0, progress.part(0, 0.15));
     parts.camera = pictureCamera(mesh, picture);
-    parts.marks = findMarks(*example, *field, *origins, jumps, *parts.camera);
+    parts.marks = findMarks(*example, *field, *origins, jumps, *parts.camera, {}, 0,
+                            progress.part(0.15, 0.3));
     source.field = field;
     source.origins = origins;
     source.example = example;

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "engine/example_forms.h"
 #include "engine/words.h"
-#include "mesh/scene.h"
 #include "reconstruct/copy_triangles.h"
 #include "reconstruct/field_to_mesh.h"
 #include "reconstruct/reconstruct.h"
@@ -53,8 +53,9 @@ Surface contoured(const Result& result, std::span<const Example> examples,
   return {std::move(made.mesh), made.health};
 }
 
-TriangleMesh boxesOf(const LabelGrid& grid, bool closedLabels, const std::string& what) {
-  TriangleMesh mesh = labelMesh(grid, {.closedLabels = closedLabels});
+TriangleMesh boxesOf(const LabelGrid& grid, bool closedLabels, const std::string& what,
+                     const Progress& progress) {
+  TriangleMesh mesh = labelMesh(grid, {.closedLabels = closedLabels}, progress);
   if (mesh.triangles.empty()) throw InputError(what + ": all of its cells are empty");
   return mesh;
 }
@@ -86,8 +87,7 @@ Surface realize(const Result& result, std::span<const Example> examples,
   }
   Surface surface;
   surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));
-  progress.report("checking the surface", 0.8);
-  surface.health = meshHealth(surface.mesh);
+  surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
   return surface;
 }
 
@@ -95,14 +95,15 @@ TriangleMesh realizeLabels(const LabelGrid& grid, const Example& example,
                            const Progress& progress) {
   progress.report("making the surface", 0);
   if (const auto* pieces = std::get_if<ModelPieces>(&example.content))
-    return assemblePieces(grid, *pieces);
+    return assemblePieces(grid, *pieces, nullptr, progress);
   if (const auto* labeled = std::get_if<LabeledField>(&example.content)) {
-    const PlacedBlocks placed = placeBlocks(labeled->field, labeled->blocks, grid.cells);
+    const PlacedBlocks placed =
+        placeBlocks(labeled->field, labeled->blocks, grid.cells, progress.part(0, 0.2));
     return reconstructSurface(placed.field, placed.origins, viewOf(labeled->field, example), {},
-                              progress)
+                              progress.part(0.2, 1))
         .mesh;
   }
-  return boxesOf(grid, true, "the result has no geometry");
+  return boxesOf(grid, true, "the result has no geometry", progress);
 }
 
 TriangleMesh contourOf(const Example& example, const Progress& progress) {
@@ -116,7 +117,8 @@ TriangleMesh pictured(const Example& example, const Progress& progress) {
       field.data = labeled->field;
       return pictured(field, progress);
     }
-    return example.mesh ? *example.mesh : boxesOf(example.labels(), false, example.name());
+    return example.mesh ? *example.mesh
+                        : boxesOf(example.labels(), false, example.name(), progress);
   }
   if (example.mesh && example.kind == SourceKind::Mesh) return *example.mesh;
   const DistanceField& field = example.field();
@@ -130,10 +132,11 @@ TriangleMesh pictured(const Example& example, const Progress& progress) {
 
 TriangleMesh pictured(const Source& source, const ReadOptions& options, const Progress& progress) {
   const SourceKind kind = sourceKind(source);
-  if (kind == SourceKind::Mesh) return readTriangles(source, options.mesh);
-  if (kind == SourceKind::Labels) return boxesOf(readLabelGrid(source), false, source.name());
+  if (kind == SourceKind::Mesh) return readTriangles(source, options.mesh, progress);
+  if (kind == SourceKind::Labels)
+    return boxesOf(readLabelGrid(source), false, source.name(), progress);
   // A scene of model pieces is shown as it is, not as what a distance field leaves of it.
-  if (kind == SourceKind::Pieces) return readScene(findScene(source.name())).mesh;
+  if (kind == SourceKind::Pieces) return readSceneOf(source, {}, progress).mesh;
   return pictured(readExample(source, options, progress.part(0, 0.5)), progress.part(0.5, 1));
 }
 

@@ -53,31 +53,35 @@ SourceKind sourceKind(const Source& source) {
   throw InputError(source.name() + ": not a kind of example; use " + kExampleEndings);
 }
 
-TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options) {
+TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
+                           const Progress& progress) {
   if (!isFile(source)) return held<TriangleMesh>(source, "triangles");
   if (const std::string* bytes = source.inMemory<std::string>())
-    return readMesh(*bytes, source.name(), options);
-  return readMesh(source.path(), options);
+    return readMesh(*bytes, source.name(), options, progress);
+  return readMesh(source.path(), options, progress);
 }
 
-DistanceField readDistances(const Source& source, Axes* wraps) {
+DistanceField readDistances(const Source& source, Axes* wraps, const Progress& progress) {
   if (!isFile(source)) return held<DistanceField>(source, "distances");
-  return readVdb(source.path(), wraps);
+  return readVdb(source.path(), wraps, progress);
 }
 
-LabelGrid readLabelGrid(const Source& source) {
+LabelGrid readLabelGrid(const Source& source, const Progress& progress) {
   if (!isFile(source)) return held<LabelGrid>(source, "labels");
-  const std::string ending = lowerExtension(source.path());
   if (const std::string* bytes = source.inMemory<std::string>()) {
-    return ending == ".vox" ? parseVox(*bytes, source.name())
-                            : parseLabelText(*bytes, source.name());
+    return lowerExtension(source.path()) == ".vox"
+               ? parseVox(*bytes, source.name())
+               : parseLabelText(*bytes, source.name(), progress);
   }
-  return readLabels(source.path());
+  return readLabels(source.path(), progress);
 }
 
-HeightMap readHeights(const Source& source, const HeightMapFileOptions& options) {
+HeightMap readHeights(const Source& source, const HeightMapFileOptions& options,
+                      const Progress& progress) {
   if (!isFile(source)) return held<HeightMap>(source, "heights");
-  return readHeightMap(source.path(), options);
+  if (const std::string* bytes = source.inMemory<std::string>())
+    return readHeightMap(*bytes, source.name(), options, progress);
+  return readHeightMap(source.path(), options, progress);
 }
 
 std::string readBytes(const Source& source) {

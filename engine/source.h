@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/axes.h"
+#include "core/progress.h"
 #include "mesh/mesh_file.h"
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
@@ -65,7 +66,7 @@ class Source {
 
 /// What a source holds.
 enum class SourceKind {
-  Mesh,       ///< .obj .ply .stl .off .glb
+  Mesh,       ///< .obj .ply .stl .off .glb .gltf
   Scene,      ///< .toml: a process that makes a mesh
   Pieces,     ///< .toml: a scene made of model pieces on a grid
   Volume,     ///< .vdb of signed distances
@@ -80,14 +81,16 @@ SourceKind sourceKind(const Source& source);
 
 /// The endings of examples, for help and errors.
 inline constexpr const char* kExampleEndings =
-    ".obj .ply .stl .off .glb .vdb .png .pgm .asc .txt .vox .jpg or .toml";
+    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .txt .vox .jpg or .toml";
 
-/// Reads the triangles, distances, labels or heights themselves. `sceneSeed` and the like are in
-/// `readExample`.
-TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options);
-DistanceField readDistances(const Source& source, Axes* wraps = nullptr);
-LabelGrid readLabelGrid(const Source& source);
-HeightMap readHeights(const Source& source, const HeightMapFileOptions& options);
+/// Read what a source holds. Throw `InputError` naming it, and `Cancelled`.
+TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
+                           const Progress& progress = {});
+DistanceField readDistances(const Source& source, Axes* wraps = nullptr,
+                            const Progress& progress = {});
+LabelGrid readLabelGrid(const Source& source, const Progress& progress = {});
+HeightMap readHeights(const Source& source, const HeightMapFileOptions& options,
+                      const Progress& progress = {});
 /// The bytes of a file.
 std::string readBytes(const Source& source);
 

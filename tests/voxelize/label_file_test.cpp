@@ -238,12 +238,8 @@ TEST(Vox, ErrorsSayWhatIsWrong) {
   EXPECT_THAT(voxError(voxFile(voxModel({1, 999, 1}, voxel))), HasSubstr("999 cells long"));
   EXPECT_THAT(voxError(voxFile(voxModel({1, 1, 1}, std::string("\1\0\0\1", 4)))),
               HasSubstr("a voxel at (1, 0, 0) is outside its model of 1 x 1 x 1 cells"));
-<<<<<<< HEAD
-  EXPECT_THAT(voxError(voxFile(voxModel({1, 1, 1}, std::string(4, '\0')))), HasSubstr("color 0"));
-=======
   EXPECT_THAT(voxError(voxFile(voxModel({1, 1, 1}, std::string(4, '\0')))),
               HasSubstr("0; expected 1 to 255"));
->>>>>>> w-mod
   EXPECT_THAT(voxError(voxFile(voxChunk("SIZE", little(1) + little(1) + little(1)) +
                                voxChunk("XYZI", little(2000000000) + voxel))),
               HasSubstr("2000000000 items"));
