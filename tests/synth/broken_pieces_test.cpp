@@ -72,7 +72,7 @@ TEST(BrokenPieces, ThePartOfABallIsClearedAway) {
 }
 
 TEST(BrokenPieces, ASpeckWithoutAirAmongItsNeighboursOffsetsGoesToo) {
-  // All samples around say solid where the speck is: their offsets lead into the ball.
+  // All samples around show solid where the speck is: their offsets lead into the ball.
   const DistanceField example = twoBalls();
   Origins origins(Vec3i{9, 9, 9}, Origin({0, 0, 0}));
   origins(4, 4, 4) = Origin({8, 8, 8});
