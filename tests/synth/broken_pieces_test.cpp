@@ -71,7 +71,7 @@ TEST(BrokenPieces, ThePartOfABallIsClearedAway) {
   EXPECT_EQ(dropBrokenPieces(example, origins), 0);
 }
 
-TEST(BrokenPieces, ASpeckWithoutAirAmongItsNeighboursOffsetsGoesToo) {
+TEST(BrokenPieces, ASpeckWithoutAirAmongItsNeighborsOffsetsGoesToo) {
   // All samples around show solid where the speck is: their offsets lead into the ball.
   const DistanceField example = twoBalls();
   Origins origins(Vec3i{9, 9, 9}, Origin({0, 0, 0}));

@@ -235,6 +235,15 @@ TEST(AlignPieces, AlignsPieces) {
   EXPECT_GT(seamCost(p.example, p.target, p.origins, {.fidelity = 0, .length = 0}), 0);
 }
 
+TEST(AlignPieces, SameBytesAtAnyNumberOfThreads) {
+  const Puzzle p = puzzle(7);
+  Origins one = p.origins, eight = p.origins;
+  withThreads(1, [&] { alignPieces(p.example, one); });
+  withThreads(8, [&] { alignPieces(p.example, eight); });
+  EXPECT_NE(one, p.origins);
+  EXPECT_EQ(one, eight);
+}
+
 TEST(AlignPieces, NeverRaisesTheCostOfFaces) {
   SeamOptions options;
   options.fidelity = 0;
