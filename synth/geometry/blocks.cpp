@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -48,9 +49,9 @@ struct BlockSource {
     if (slabs) size.z = halves * (side / 2);
     const auto cut = [&](int from, int height) {
       Array3D<std::uint8_t> source({size.x, size.y, height});
-      for (std::size_t s = 0; s < source.count(); ++s) {
-        source.values()[s] = levels[levels.clamped(source.ijk(s) + Vec3i{0, 0, from})];
-      }
+      parallelForEachCell(source.size(), [&](const Vec3i& p) {
+        source[p] = levels[levels.clamped(p + Vec3i{0, 0, from})];
+      });
       return source;
     };
     for (int slab = 0; slab < (slabs ? halves - 1 : 1); ++slab) {
@@ -86,9 +87,8 @@ class Pass {
       if (options.search == BlockSearch::Tree) break;
       const Array3D<std::uint8_t>& averages = pyramid.averages(level);
       Array3D<std::uint8_t> lattice((averages.size() - Vec3i{1, 1, 1}) / step_ + Vec3i{1, 1, 1});
-      for (std::size_t s = 0; s < lattice.count(); ++s) {
-        lattice.values()[s] = averages[lattice.ijk(s) * step_];
-      }
+      parallelForEachCell(lattice.size(),
+                          [&](const Vec3i& p) { lattice[p] = averages[p * step_]; });
       if (options.search == BlockSearch::Index) {
         indices_.emplace_back(std::move(lattice), Vec3i{1, 1, 1} * (2 * half_));
       } else {
@@ -116,13 +116,12 @@ class Pass {
 
   /// Seeds the target with the result of the iteration before, of half the resolution.
   void seedWith(const Array3D<Vec3i>& coarser) {
-    for (std::size_t s = 0; s < target_.count(); ++s) {
-      const Vec3i x = target_.ijk(s);
+    parallelForEachCell(target_.size(), [&](const Vec3i& x) {
       const Vec3i parent = coarser.clamped({x.x / 2, x.y / 2, x.z / 2});
       const Vec3i within = min(max(x - parent * 2, Vec3i{0, 0, 0}), Vec3i{1, 1, 1});
-      origins_.values()[s] = source_.clamped(coarser[parent] + within * step_);
-      target_.values()[s] = source_[origins_.values()[s]];
-    }
+      origins_[x] = source_.clamped(coarser[parent] + within * step_);
+      target_[x] = source_[origins_[x]];
+    });
   }
 
   /// Makes every block, in waves of blocks that do not depend on each other: a block reads only
@@ -196,7 +195,7 @@ class Pass {
     return trees_[slab].findBest(query, {.positionStride = step_}).position;
   }
 
-  /// Where the block would go on with what its corner and its neighbours hold: likely to be near.
+  /// Where the block would continue what its corner and its neighbors hold: likely to be near.
   std::vector<BlockMatch> hints(const Vec3i& block) const {
     std::vector<BlockMatch> likely;
     const Vec3i first = block * half_;
@@ -243,23 +242,23 @@ void check(const DistanceField& example, const BlocksOptions& options) {
   if (volume(n) == 0) fail("the example has no samples");
   if (longest > 32767) fail("the example is longer than 32,767 samples");
   for (int axis = 0; axis < 3; ++axis) {
-    if (options.size[axis] < 1) fail("the result must have at least one sample along each axis");
+    if (options.size[axis] < 1) fail("`size` must be at least 1 sample along each axis");
   }
   if (options.block < 2 || options.block > 256 || (options.block & (options.block - 1))) {
-    fail("block " + std::to_string(options.block) + ": expected a power of two, 2 to 256");
+    fail("`block` " + std::to_string(options.block) + ": expected a power of two, 2 to 256");
   }
   if (options.block > longest) {
-    fail("block " + std::to_string(options.block) + ": the example is only " +
-         std::to_string(longest) + " samples long; use a smaller block or a higher resolution");
+    fail("`block` " + std::to_string(options.block) + ": the example is only " +
+         std::to_string(longest) + " samples long; use a smaller `block` or a higher `resolution`");
   }
   if (options.iterations < 1 || options.iterations > 8) {
-    fail("iterations " + std::to_string(options.iterations) + ": expected 1 to 8");
+    fail("`iterations` " + std::to_string(options.iterations) + ": expected 1 to 8");
   }
-  if (!(options.truncation > 0)) fail("truncation must be above 0");
+  if (!(options.truncation > 0)) fail("`truncation` must be above 0");
   // The tree, and for each sample of the result its value, its origins and the field.
   requireMemory(60.0 * static_cast<double>(volume(max(n, Vec3i{1, 1, 1} * (2 * options.block)))) +
                     40.0 * static_cast<double>(volume(options.size)),
-                "synthesis at this size", "use a lower resolution or a smaller scale");
+                "synthesis at this size", "use a lower `resolution` or a smaller `scale`");
 }
 
 /// The block's side in the iteration that works on cells of 2^level samples, in finest samples: as
@@ -316,11 +315,11 @@ SynthesisResult synthesizeBlocks(const DistanceField& example, const BlocksOptio
   result.field = example;
   result.field.values = Array3D<float>(options.size);
   result.origins = Origins(options.size);
-  for (std::size_t s = 0; s < result.origins.count(); ++s) {
-    const Vec3i origin = example.values.clamped(origins[result.origins.ijk(s)]);
-    result.origins.values()[s] = Origin(origin);
-    result.field.values.values()[s] = example.values[origin];
-  }
+  parallelForEachCell(options.size, [&](const Vec3i& p) {
+    const Vec3i origin = example.values.clamped(origins[p]);
+    result.origins[p] = Origin(origin);
+    result.field.values[p] = example.values[origin];
+  });
   return result;
 }
 

@@ -20,7 +20,7 @@ enum class BlockSeeding {
 enum class BlockSearch {
   Index,  ///< `BlockIndex`: the fastest
   Tree,   ///< the paper's search tree (section 4)
-  Scan,   ///< the vectorised linear scan: faster than the tree on targets that are no distance
+  Scan,   ///< the vectorized linear scan: faster than the tree on targets that are no distance
           ///< fields
 };
 

@@ -25,7 +25,7 @@ BlocksOptions sized(const Vec3i& size, int block = 8) {
   return options;
 }
 
-/// White noise: nothing in it goes on as anything else does.
+/// White noise: no part of it continues as another does.
 DistanceField noise(const Vec3i& size) {
   DistanceField field = constant(size, 0);
   const Random random(5);
@@ -162,7 +162,7 @@ TEST(Blocks, WhatRepeatsGoesOn) {
   const SynthesisResult result = synthesizeBlocks(example, options);
   EXPECT_LT(brokenFaces(example, result.field, result.origins, 0.05f), 0.02);
 
-  // The checker sees what does not go on.
+  // The checker sees what does not continue.
   Origins shuffled = result.origins;
   DistanceField field = result.field;
   const Random random(1);
@@ -195,9 +195,8 @@ TEST(Blocks, RefusesOptionsOutOfRange) {
     }
   };
   EXPECT_FALSE(refused([](BlocksOptions&) {}, ""));
-  EXPECT_TRUE(refused([](BlocksOptions& o) { o.size.y = 0; }, "size") ||
-              refused([](BlocksOptions& o) { o.size.y = 0; }, "result"));
-  EXPECT_TRUE(refused([](BlocksOptions& o) { o.size.x = -4; }, "result"));
+  EXPECT_TRUE(refused([](BlocksOptions& o) { o.size.y = 0; }, "`size`"));
+  EXPECT_TRUE(refused([](BlocksOptions& o) { o.size.x = -4; }, "`size`"));
   for (const int block : {0, 1, 3, 12, 512}) {
     EXPECT_TRUE(refused([&](BlocksOptions& o) { o.block = block; }, "block"));
   }

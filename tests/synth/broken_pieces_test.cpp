@@ -71,8 +71,8 @@ TEST(BrokenPieces, ThePartOfABallIsClearedAway) {
   EXPECT_EQ(dropBrokenPieces(example, origins), 0);
 }
 
-TEST(BrokenPieces, ASpeckWithoutAirAmongItsNeighboursOffsetsGoesToo) {
-  // All samples around say solid where the speck is: their offsets lead into the ball.
+TEST(BrokenPieces, ASpeckWithoutAirAmongItsNeighborsOffsetsGoesToo) {
+  // All samples around show solid where the speck is: their offsets lead into the ball.
   const DistanceField example = twoBalls();
   Origins origins(Vec3i{9, 9, 9}, Origin({0, 0, 0}));
   origins(4, 4, 4) = Origin({8, 8, 8});

@@ -19,7 +19,7 @@ using namespace testing;
 
 VotingOptions sized(const Vec3i& size) { return {.size = size, .rounds = 3}; }
 
-/// The mean step between neighbours along an axis, inside and across the wrap.
+/// The mean step between neighbors along an axis, inside and across the wrap.
 struct Steps {
   double inside = 0, across = 0;
 };
@@ -209,7 +209,7 @@ TEST(Rotations, PartsAreTurnedAndOriginsSayHow) {
     const Vec3i back[] = {{1, 0, 0}, {0, -1, 0}, {-1, 0, 0}, {0, 1, 0}};
     turns.insert(next.cell() - origin.cell() == back[origin.turns] ? 10 + origin.turns : 20);
   }
-  // Some part lies across, and each turn that is there goes on by its own step somewhere.
+  // Some part lies across, and each turn that occurs continues by its own step somewhere.
   EXPECT_TRUE(turns.count(1) || turns.count(3));
   for (const int t : {0, 1, 2, 3}) EXPECT_EQ(turns.count(t), turns.count(10 + t));
   options.rotations = false;

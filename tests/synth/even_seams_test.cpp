@@ -96,7 +96,7 @@ TEST(EvenSeams, SlopesComeNearOne) {
 }
 
 TEST(EvenSeams, StepsBecomeSlopes) {
-  // A ground that rises by 0.1 a voxel, and goes on 10 voxels back: a step of 1, where the slopes
+  // A ground that rises by 0.1 a voxel, and continues 10 voxels back: a step of 1, where the slopes
   // agree. Poisson's equation spreads it over the 2 x reach + 1 steps about the seam.
   DistanceField example = constant({40, 24, 24}, 0);
   example.truncation = 16;

@@ -41,8 +41,8 @@ PyramidLevel levelOf(const DistanceField& example, const Vec3i& size);
 /// is not a cell of it.
 std::int64_t samplesNotCopied(const DistanceField& example, const SynthesisResult& result);
 
-/// The share of faces across which the result does not go on as its example does, by more than
-/// `tolerance`; of those whose origin has a neighbour in the example.
+/// The share of faces across which the result does not continue as its example does, by more than
+/// `tolerance`; of those whose origin has a neighbor in the example.
 double brokenFaces(const DistanceField& example, const DistanceField& field, const Origins& origins,
                    float tolerance);
 

@@ -55,7 +55,7 @@ struct Problem {
   }
 };
 
-/// Random capacities below `range`, of which many are 0 and none is below; each pair of neighbours
+/// Random capacities below `range`, of which many are 0 and none is below; each pair of neighbors
 /// is connected from either of its ends.
 Problem randomProblem(const Vec3i& size, int range, std::uint64_t seed) {
   const Random random(seed);

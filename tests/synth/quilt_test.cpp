@@ -172,21 +172,30 @@ TEST(Quilt, BlocksOfARepetitionMeetTheOtherSide) {
 
 TEST(Quilt, EveryPartOfTheExampleGetsItsTurn) {
   const PyramidLevel level = levelOf(balls({20, 20, 20}, 4, 5), {40, 40, 40});
+  // The share of the example that is used, and how unevenly: the mean difference of the uses of a
+  // sample from their mean, of that mean.
+  struct Use {
+    double share = 0, unevenness = 0;
+  };
   const auto used = [&](double price) {
     QuiltOptions options;
     options.use = price;
-    double share = 0;
-    for (options.seed = 0; options.seed < 2; ++options.seed) {
-      Array3D<std::uint8_t> marks(level.source.values.size());
-      const PyramidSources sources = quilt(level, options);
-      for (const Vec3i& cell : sources.values()) marks[cell] = 1;
-      share += static_cast<double>(std::count(marks.values().begin(), marks.values().end(), 1)) /
-               static_cast<double>(marks.count()) / 2;
+    options.longBlock = 0.5;  // which leaves blocks a choice
+    Array3D<double> count(level.source.values.size());
+    const PyramidSources sources = quilt(level, options);
+    for (const Vec3i& cell : sources.values()) ++count[cell];
+    const double samples = static_cast<double>(count.count());
+    const double mean = static_cast<double>(sources.count()) / samples;
+    Use use;
+    for (const double uses : count.values()) {
+      use.share += (uses > 0) / samples;
+      use.unevenness += std::abs(uses - mean) / mean / samples;
     }
-    return share;
+    return use;
   };
-  EXPECT_GT(used(0.3), 0.9);
-  EXPECT_GE(used(0.3), used(0));
+  const Use priced = used(0.3), free = used(0);
+  EXPECT_GT(priced.share, 0.9);
+  EXPECT_LT(priced.unevenness, 0.9 * free.unevenness);
 }
 
 TEST(Quilt, NothingSolidIsInTheFrameWhereAnObjectEndsAsItDid) {

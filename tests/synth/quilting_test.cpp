@@ -99,7 +99,7 @@ TEST(Quilting, WhatRepeatsMeetsItsOtherSideAligned) {
   options.periodic = {true, true, false};
   const SynthesisResult result = synthesizeByQuilting(example, options);
   const Array3D<float>& values = result.field.values;
-  // Neighbours across the faces differ hardly more than neighbours inside: the worst pair by 1.26
+  // Neighbors across the faces differ hardly more than neighbors inside: the worst pair by 1.26
   // voxels, inside by 1.17. What lies beside the faces is held fixed while seams there are cut.
   double most = 0, across = 0;
   for (std::size_t s = 0; s < values.count(); ++s) {

@@ -46,7 +46,7 @@ TEST(Repetition, FindsStepsThatAreNotAlongTheAxes) {
 }
 
 TEST(Repetition, StepsInOtherDirectionsAreFreeWhereOnlySomeRepeat) {
-  // Ribs along y: nothing along y tells one step from another, nor along z.
+  // Ribs along y: nothing along y distinguishes one step from another, nor along z.
   Array3D<float> ribs({36, 20, 12});
   for (std::size_t s = 0; s < ribs.count(); ++s) {
     const Vec3i p = ribs.ijk(s);

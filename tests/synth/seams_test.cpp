@@ -206,7 +206,7 @@ TEST(RefineSeams, FindsWhereSlopesAgree) {
 }
 
 /// Two halves of a field that repeats after 9 samples, the right one `off` samples out of step.
-Puzzle outOfStep(const Vec3i& off) {
+Puzzle misaligned(const Vec3i& off) {
   Puzzle p;
   p.example = waves({40, 40, 40}, 9).values;
   p.origins = Origins({24, 16, 16});
@@ -218,9 +218,9 @@ Puzzle outOfStep(const Vec3i& off) {
   return p;
 }
 
-TEST(AlignPieces, PutsPiecesInStep) {
+TEST(AlignPieces, AlignsPieces) {
   for (const Vec3i& off : {Vec3i{1, 0, 0}, Vec3i{-1, 1, 0}, Vec3i{1, -1, 1}}) {
-    Puzzle p = outOfStep(off);
+    Puzzle p = misaligned(off);
     SeamOptions options;
     options.length = options.fidelity = 0;
     EXPECT_GT(seamCost(p.example, p.target, p.origins, options), 1000000);
@@ -230,9 +230,18 @@ TEST(AlignPieces, PutsPiecesInStep) {
     EXPECT_EQ(alignPieces(p.example, p.origins, 1, options), 0);
   }
   // Farther out than both may move.
-  Puzzle p = outOfStep({4, 4, 4});
+  Puzzle p = misaligned({4, 4, 4});
   alignPieces(p.example, p.origins, 1);
   EXPECT_GT(seamCost(p.example, p.target, p.origins, {.fidelity = 0, .length = 0}), 0);
+}
+
+TEST(AlignPieces, SameBytesAtAnyNumberOfThreads) {
+  const Puzzle p = puzzle(7);
+  Origins one = p.origins, eight = p.origins;
+  withThreads(1, [&] { alignPieces(p.example, one); });
+  withThreads(8, [&] { alignPieces(p.example, eight); });
+  EXPECT_NE(one, p.origins);
+  EXPECT_EQ(one, eight);
 }
 
 TEST(AlignPieces, NeverRaisesTheCostOfFaces) {
@@ -247,7 +256,7 @@ TEST(AlignPieces, NeverRaisesTheCostOfFaces) {
   }
 }
 
-TEST(RefineSeams, HonoursWhatIsFixedUsableAndAir) {
+TEST(RefineSeams, HonorsWhatIsFixedUsableAndAir) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     const Puzzle p = puzzle(seed);
     const Vec3i n = p.origins.size();

@@ -9,6 +9,8 @@
 namespace exemplar {
 namespace {
 
+// What these constants trade and what chose them: docs/synthesis.md, "Constants".
+
 /// How far parts of an object that keeps its size may move along it, of its length.
 constexpr double kObjectShift = 0.16;
 /// How far patches may be from their place, of the example's length: a quarter of by how much the

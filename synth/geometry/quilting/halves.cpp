@@ -10,13 +10,12 @@
 
 #include "core/cells.h"
 #include "core/parallel.h"
-#include "synth/geometry/quilting/quilt.h"
 
 namespace exemplar {
 namespace {
 
-/// A copy moved by this much is a copy, samples.
-constexpr int kCopyReach = 2;
+// What these constants trade and what chose them: docs/synthesis.md, "Constants".
+
 /// Halves are cut at least this far from the example's ends, of its length.
 constexpr double kEnd = 0.25;
 /// From this much on, voxels, both sides of a joint have no windows in common.
@@ -115,7 +114,7 @@ class Halves {
     }
     for (std::size_t n = 1; n < fitting.size(); ++n) {
       Exchange other = cutAt(fitting[n], place);
-      other.liftFirst = other.liftSecond = 0;  // there is only room for the first's
+      other.liftFirst = other.liftSecond = 0;  // the box has room for the first's lift only
       plans.push_back({cutAt(fitting[0], place), other});
     }
     return plans;

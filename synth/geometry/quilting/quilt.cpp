@@ -17,7 +17,8 @@
 namespace exemplar {
 namespace {
 
-constexpr std::uint32_t kPhase = 0, kDraw = 1;  // draws
+// What these constants trade and what chose them: docs/synthesis.md, "Constants".
+
 /// Distances count up to here, in voxels of the level: the surface, not what is far from it.
 constexpr float kLimit = 2;
 /// What a sample beside the example's box costs, voxels: its seam will have to go elsewhere.
@@ -45,8 +46,8 @@ constexpr int kRises = 4;
 /// surface is in it, in voxels.
 constexpr int kDraws = 4;
 constexpr double kUnused = 2;
-/// A copy moved by this much is a copy, samples.
-constexpr int kCopyReach = 2;
+/// What random numbers are drawn for: a row's phase, and which of the good places a block takes.
+constexpr std::uint32_t kPhase = 0, kDraw = 1;
 
 int longestSide(const Vec3i& size) { return std::max({size.x, size.y, size.z}); }
 

@@ -12,6 +12,12 @@
 
 namespace exemplar {
 
+/// A copy of the example that is moved by this much is a copy still, samples.
+inline constexpr int kCopyReach = 2;
+/// The least distance (1 - IoU) of a result of the example's own size to the example, wherever it
+/// is laid within `kCopyReach`.
+inline constexpr double kNovelty = 0.15;
+
 struct QuiltOptions {
   std::uint64_t seed = 0;
   /// Side of a block, of the example's; along axes along which the result is longer than one and a
@@ -24,9 +30,8 @@ struct QuiltOptions {
   double slack = 0.1;
   double use = 0.3;      ///< price of a source used once more than its share, in voxels; >= 0
   double variety = 0.5;  ///< price of an offset that all of the result has, in voxels; >= 0
-  /// The least distance (1 - IoU) of a result of the example's own size to the example, wherever it
-  /// is laid within two samples; `variety` rises until it is reached; 0..1.
-  double novelty = 0.15;
+  /// `variety` rises until a result of the example's own size is as new as this; 0..1.
+  double novelty = kNovelty;
   /// Moves joints to where both sides agree best, before that distance is taken; or nothing.
   std::function<void(PyramidSources&, const Progress&)> cut;
   /// How far from its proportional place along an axis a block may come from, samples; negative:

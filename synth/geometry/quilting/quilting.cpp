@@ -25,6 +25,8 @@
 namespace exemplar {
 namespace {
 
+// What these constants trade and what chose them: docs/synthesis.md, "Constants".
+
 /// A quilt is made where the example has at most this many samples along its longest side.
 constexpr int kQuiltSide = 40;
 /// A repetition is stretched, so that a result holds a whole number of it, where what is an example

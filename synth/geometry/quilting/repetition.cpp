@@ -15,6 +15,8 @@
 namespace exemplar {
 namespace {
 
+// What these constants trade and what chose them: docs/synthesis.md, "Constants".
+
 /// How far steps are looked at, and basis vectors may reach, of the example's length.
 constexpr double kFarthest = 0.7, kLongest = 0.6;
 /// Steps shorter than this along all axes are no repetition, samples.
@@ -27,15 +29,16 @@ constexpr std::size_t kCompared = 1024, kFewest = 100;
 /// combinations of such steps must be, by so large a share, less unlike than that.
 constexpr double kRepeats = 0.45, kCombination = 0.65, kShare = 0.8;
 /// Half a basis vector is more unlike than a whole by this much of the median: where the example
-/// only goes on there is no step.
+/// only continues, as a bar does along itself, no step repeats it.
 constexpr double kContrast = 0.2;
-/// Steps this much more unlike than their neighbours, of the median, are minima too: of those that
-/// are all alike the shortest shall be found.
+/// Steps this much more unlike than their neighbors, of the median, are minima too: of those that
+/// are all alike the shortest should be found.
 constexpr double kAlike = 0.01;
 /// The least volume of the unit vectors along a basis: no two are nearly parallel.
 constexpr double kIndependent = 0.3;
+/// Combinations of basis vectors have coefficients up to here.
 constexpr int kCoefficient = 6;
-/// A vector is along an axis if not more than so much of it is aside.
+/// A vector is along an axis if no larger share of it is aside.
 constexpr double kAside = 0.1;
 
 /// How unlike an example is to itself after each step.
@@ -54,7 +57,7 @@ class Unlikeness {
     for (std::size_t s = every / 2; s < surface.size(); s += every) some.push_back(surface[s]);
 
     table_ = Array3D<float>(reach_ * 2 + Vec3i{1, 1, 1}, kUnknown);
-    // A step and its opposite compare the same samples: half of the table tells the other half.
+    // A step and its opposite compare the same samples: half of the table gives the other half.
     const std::size_t half = table_.count() / 2 + 1;
     parallelFor(0, half, 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
@@ -118,7 +121,7 @@ class Unlikeness {
   }
 
   /// A step's place between samples along each axis: where straight lines of equal slope through
-  /// the neighbours meet.
+  /// the neighbors meet.
   Vec3d between(const Vec3i& step) const {
     Vec3d place = cast<double>(step);
     for (int axis = 0; axis < 3; ++axis) {
@@ -204,12 +207,13 @@ bool combinationsRepeat(const Unlikeness& unlikeness, const std::vector<Vec3d>& 
     ++all;
     repeat += least && unlikeness.at(*least) < kCombination * unlikeness.median();
   });
-  // A step and its opposite alone are hearsay.
+  // A step and its opposite alone are no evidence.
   return all > 2 && repeat >= kShare * all;
 }
 
-/// Whether half of this step is no step, nor half of what is left of it after one of the basis.
-bool standsOut(const Unlikeness& unlikeness, const std::vector<Vec3d>& basis, const Vec3i& step) {
+/// Whether half of this step does not repeat the example, nor half of what is left of it after one
+/// of the basis.
+bool isBasic(const Unlikeness& unlikeness, const std::vector<Vec3d>& basis, const Vec3i& step) {
   std::vector<Vec3i> rest{step};
   forCombinations(unlikeness, basis, [&](const Vec3d& known, const Vec3i& c) {
     if (Unlikeness::longestOf(c) == 1) rest.push_back(step - Unlikeness::rounded(known));
@@ -300,7 +304,7 @@ Repetition findRepetition(const Array3D<float>& values) {
     bool longest = false;
     for (int axis = 0; axis < 3; ++axis) longest |= std::abs(step[axis]) > kLongest * n[axis];
     if (longest) continue;
-    if (!standsOut(unlikeness, found.basis, step)) continue;
+    if (!isBasic(unlikeness, found.basis, step)) continue;
     std::vector<Vec3d> basis = found.basis;
     basis.push_back(refined(unlikeness, step));
     if (!independent(basis) || !combinationsRepeat(unlikeness, basis)) continue;

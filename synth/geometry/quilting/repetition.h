@@ -24,10 +24,11 @@ struct Repetition {
   Vec3i nearest(const Vec3i& step) const;
   /// The same on a grid of samples that are `factor` times smaller.
   Repetition refined(double factor) const;
-  /// The length of a basis vector along this axis that stands alone, nearly so; 0: there is none.
+  /// The length of the basis vector along this axis, if a single one has a part along it and nearly
+  /// none aside; else 0.
   double periodAlong(int axis) const;
-  /// Makes `length` a whole number of periods along this axis, where one vector stands alone along
-  /// it and that moves what is `apart` samples apart by at most `tolerance`; else returns false.
+  /// Makes `length` a whole number of periods along this axis, where it has a period and that moves
+  /// what is `apart` samples apart by at most `tolerance`; else returns false.
   bool stretch(int axis, int length, int apart, double tolerance);
   /// How long the basis vectors are along each axis at most, samples, rounded up.
   Vec3i cell() const;
@@ -41,7 +42,7 @@ struct Repetition {
 /// values, cut off at two, at samples within one of the surface; the example repeats where that has
 /// a strict local minimum far below what steps have in general, and the combinations of such steps
 /// have them too. So what is woven, laid, or built on a grid repeats, with parts that are a little
-/// out of place; random packings, ground, and what only goes on along an axis do not.
+/// out of place; random packings, ground, and what only continues along an axis do not.
 ///
 /// `values` is in samples (distances, negative inside). Steps of up to 0.7 of its length are seen,
 /// and basis vectors of up to 0.6 of it are found. O(steps x 1024); the same at any number of

@@ -12,6 +12,8 @@
 namespace exemplar {
 namespace {
 
+// What these constants trade and what chose them: docs/synthesis.md, "Constants".
+
 /// Ground that rises by more than this from one side to the other slopes, voxels.
 constexpr double kSlope = 1;
 /// The share of its length over which the height of a side is averaged.

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/cells.h"
 #include "synth/geometry/pyramid/source_part.h"
 #include "synth/geometry/seams/broken_pieces.h"
 #include "synth/geometry/seams/even_seams.h"
@@ -30,16 +31,15 @@ class Assembly {
 
   SynthesisResult run(const PyramidSources& sources, const Array3D<float>& target,
                       const Progress& progress) {
-    SynthesisResult result;
     progress.report("cutting seams", 0);
     Origins origins(size_);
-    for (std::size_t s = 0; s < origins.count(); ++s) {
-      const Vec3i cell = sources[origins.ijk(s) + level_.target.margin.before];
+    parallelForEachCell(size_, [&](const Vec3i& p) {
+      const Vec3i cell = sources[p + level_.target.margin.before];
       const std::size_t part = level_.source.partOf(cell);
       const Vec3i inside =
           parts_[part].field.values.clamped(cell - level_.source.parts[part].begin);
-      origins.values()[s] = Origin(inside + Vec3i{sheet_.first[part], 0, 0});
-    }
+      origins[p] = Origin(inside + Vec3i{sheet_.first[part], 0, 0});
+    });
     Array3D<float> copied = sheet_.field.values;
     for (float& v : copied.values()) v /= static_cast<float>(sheet_.field.voxelSize);
     SeamOptions seams = kFineSeams;
@@ -50,39 +50,43 @@ class Assembly {
       air = withoutMargins(level_, air);
       seams.air = &air;
     }
-    alignPieces(copied, origins, 1, seams);
+    alignPieces(copied, origins, 1, seams, progress);
     refineSeamsAround(copied, withoutMargins(level_, target), level_.target.periodic, seams,
-                      origins, progress.part(0, 0.6));
-    progress.report("clearing broken pieces", 0.6);
-    dropBrokenPieces(sheet_.field, origins, {seams.usable, seams.fixed});
-    result.field = even(origins, seams);
+                      origins, progress.part(0.1, 0.5));
+
+    dropBrokenPieces(sheet_.field, origins, {seams.usable, seams.fixed}, progress.part(0.5, 0.6));
+    SynthesisResult result;
+    result.field = even(origins, seams, progress.part(0.6, 0.8));
     // What is thin may have come apart below the surface: that goes as well, and what little is
     // left after evening once more goes as it is copied.
     BrokenPiecesOptions pieces{seams.usable, seams.fixed, &result.field.values};
-    if (dropBrokenPieces(sheet_.field, origins, pieces) > 0) {
-      result.field = even(origins, seams);
+    if (dropBrokenPieces(sheet_.field, origins, pieces, progress.part(0.8, 0.85)) > 0) {
+      result.field = even(origins, seams, progress.part(0.85, 0.95));
       const Origins before = origins;
-      dropBrokenPieces(sheet_.field, origins, pieces);
-      for (std::size_t s = 0; s < origins.count(); ++s) {
-        if (origins.values()[s] == before.values()[s]) continue;
-        result.field.values.values()[s] = sheet_.field.values[origins.values()[s].cell()];
-      }
+      dropBrokenPieces(sheet_.field, origins, pieces, progress.part(0.95, 1));
+      parallelForEachCell(size_, [&](const Vec3i& p) {
+        if (origins[p] == before[p]) return;
+        result.field.values[p] = sheet_.field.values[origins[p].cell()];
+      });
     }
+    parallelForEachCell(size_,
+                        [&](const Vec3i& p) { origins[p] = sheet_.toExample(parts_, origins[p]); });
     result.origins = std::move(origins);
-    for (Origin& origin : result.origins.values()) origin = sheet_.toExample(parts_, origin);
     return result;
   }
 
  private:
-  DistanceField even(const Origins& origins, const SeamOptions& seams) const {
+  DistanceField even(const Origins& origins, const SeamOptions& seams,
+                     const Progress& progress) const {
     EvenSeamsOptions options;
     options.fixed = seams.fixed;
     options.usable = seams.usable;
-    if (!level_.target.periodic.any()) return evenSeams(sheet_.field, origins, options);
+    const Axes& periodic = level_.target.periodic;
+    if (!periodic.any()) return evenSeams(sheet_.field, origins, options, progress);
     // With a margin that shows what lies at the other side, cut off again.
     Vec3i margin{0, 0, 0};
     for (int axis = 0; axis < 3; ++axis) {
-      if (level_.target.periodic[axis]) margin[axis] = std::min(kWrapMargin, origins.size()[axis]);
+      if (periodic[axis]) margin[axis] = std::min(kWrapMargin, origins.size()[axis]);
     }
     const Vec3i n = origins.size();
     Origins around(n + margin * 2);
@@ -91,17 +95,15 @@ class Assembly {
       fixed = Array3D<std::uint8_t>(around.size());
       options.fixed = &fixed;
     }
-    for (std::size_t s = 0; s < around.count(); ++s) {
-      Vec3i p = around.ijk(s) - margin;
+    parallelForEachCell(around.size(), [&](const Vec3i& cell) {
+      Vec3i p = cell - margin;
       for (int axis = 0; axis < 3; ++axis) p[axis] = (p[axis] + n[axis]) % n[axis];
-      around.values()[s] = origins[p];
-      if (seams.fixed) fixed.values()[s] = (*seams.fixed)[p];
-    }
-    DistanceField field = evenSeams(sheet_.field, around, options);
+      around[cell] = origins[p];
+      if (seams.fixed) fixed[cell] = (*seams.fixed)[p];
+    });
+    DistanceField field = evenSeams(sheet_.field, around, options, progress);
     Array3D<float> inner(n);
-    for (std::size_t s = 0; s < inner.count(); ++s) {
-      inner.values()[s] = field.values[inner.ijk(s) + margin];
-    }
+    parallelForEachCell(n, [&](const Vec3i& p) { inner[p] = field.values[p + margin]; });
     field.values = std::move(inner);
     return field;
   }

@@ -4,98 +4,103 @@
 #include "synth/geometry/seams/broken_pieces.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/cells.h"
+#include "core/figure_constants.h"
+#include "core/parallel.h"
+#include "synth/geometry/seams/lattice_cut.h"
+#include "synth/geometry/seams/regions.h"
+
 namespace exemplar {
 namespace {
 
-constexpr std::array<Vec3i, 6> kSteps{
-    {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-
-constexpr double kContact = 0.5;  // voxels: thinner contacts do not join bodies
-
-struct Piece {
-  std::vector<std::size_t> samples;
-  bool whole = true;  ///< touches no side of the box
-};
-
-/// Calls `take(piece)` for each connected region of samples that are solid.
-template <class Take>
-void forEachPiece(Array3D<std::uint8_t> solid, const Take& take) {
-  const Vec3i last = solid.size() - Vec3i{1, 1, 1};
-  std::vector<std::size_t> stack;
-  for (std::size_t first = 0; first < solid.count(); ++first) {
-    if (!solid.values()[first]) continue;
-    Piece piece;
-    solid.values()[first] = 0;
-    stack.assign(1, first);
-    while (!stack.empty()) {
-      const std::size_t s = stack.back();
-      stack.pop_back();
-      piece.samples.push_back(s);
-      const Vec3i p = solid.ijk(s);
-      for (int axis = 0; axis < 3; ++axis) {
-        if (p[axis] == 0 || p[axis] == last[axis]) piece.whole = false;
-      }
-      for (const Vec3i& step : kSteps) {
-        const Vec3i q = p + step;
-        if (!solid.contains(q) || !solid[q]) continue;
-        solid[q] = 0;
-        stack.push_back(solid.index(q));
-      }
-    }
-    take(piece);
-  }
-}
+/// Samples that one task works on at least.
+constexpr std::size_t kGrain = 1 << 14;
 
 /// Which samples count as one of the two sides: those whose value, with `sign`, is below -`depth`
 /// world units. Solid has sign 1, air -1.
 Array3D<std::uint8_t> side(const Array3D<float>& values, float sign, double depth) {
   const auto limit = static_cast<float>(-depth);
   Array3D<std::uint8_t> mask(values.size());
-  for (std::size_t s = 0; s < mask.count(); ++s) {
-    const float v = values.values()[s];
-    // A sample on the surface is air.
-    mask.values()[s] = sign > 0 ? v < limit : v >= -limit;
-  }
+  parallelFor(0, mask.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const float v = values.values()[s];
+      // A sample on the surface is air.
+      mask.values()[s] = sign > 0 ? v < limit : v >= -limit;
+    }
+  });
   return mask;
 }
 
 /// What origins copy.
 Array3D<float> copied(const DistanceField& example, const Origins& origins) {
   Array3D<float> values(origins.size());
-  for (std::size_t s = 0; s < values.count(); ++s) {
-    values.values()[s] = example.values[origins.values()[s].cell()];
-  }
+  parallelFor(0, values.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      values.values()[s] = example.values[origins.values()[s].cell()];
+    }
+  });
   return values;
 }
+
+/// The connected regions of a mask.
+struct Pieces {
+  Regions regions;
+  /// Of each region: how many samples of the mask (none for what is outside of it), and whether it
+  /// touches no side of the box.
+  std::vector<std::size_t> samples;
+  std::vector<std::uint8_t> whole;
+
+  explicit Pieces(const Array3D<std::uint8_t>& mask)
+      : regions(findRegions(mask.size(), [&](const Vec3i& p) { return mask[p] != 0; })),
+        samples(regions.count),
+        whole(regions.count, 1) {
+    const Vec3i n = mask.size();
+    regions.forEachRun([&](const Regions::Run& run, const Vec3i& first) {
+      if (!mask[first]) return;
+      samples[run.region] += static_cast<std::size_t>(run.end - run.begin);
+      if (run.begin == 0 || run.end == n.x || first.y == 0 || first.y == n.y - 1 || first.z == 0 ||
+          first.z == n.z - 1) {
+        whole[run.region] = 0;
+      }
+    });
+  }
+};
 
 /// What the example falls into.
 struct ExamplePieces {
   std::size_t largest = 0, smallest = std::numeric_limits<std::size_t>::max();  // whole ones
   std::size_t inWhole = 0, all = 0;                                             // samples
 
-  bool mostlyWhole() const { return 4 * inWhole >= all; }
-  /// Half of the samples of the smallest whole piece; of the largest piece if none is whole.
-  double kept() const { return static_cast<double>(inWhole > 0 ? smallest : largest) / 2; }
+  bool mostlyWhole() const {
+    return static_cast<double>(inWhole) >= kMostlyWhole * static_cast<double>(all);
+  }
+  /// Pieces of fewer samples are broken: a share of the smallest whole piece's, or of the largest's
+  /// if none is whole.
+  double least() const {
+    return kBrokenShare * static_cast<double>(inWhole > 0 ? smallest : largest);
+  }
 };
 
-ExamplePieces piecesOf(Array3D<std::uint8_t> mask) {
-  ExamplePieces pieces;
-  forEachPiece(std::move(mask), [&](const Piece& piece) {
-    const std::size_t size = piece.samples.size();
-    pieces.all += size;
-    pieces.largest = std::max(pieces.largest, size);
-    if (!piece.whole) return;
-    pieces.inWhole += size;
-    pieces.smallest = std::min(pieces.smallest, size);
-  });
-  return pieces;
+ExamplePieces piecesOf(const Array3D<std::uint8_t>& mask) {
+  const Pieces pieces(mask);
+  ExamplePieces found;
+  for (std::uint32_t n = 0; n < pieces.regions.count; ++n) {
+    const std::size_t size = pieces.samples[n];
+    if (size == 0) continue;
+    found.all += size;
+    found.largest = std::max(found.largest, size);
+    if (!pieces.whole[n]) continue;
+    found.inWhole += size;
+    found.smallest = std::min(found.smallest, size);
+  }
+  return found;
 }
 
 /// The sample of the example that is least far on the other side, the first of several.
@@ -114,18 +119,30 @@ std::optional<Vec3i> nearestOther(const DistanceField& example, float sign,
 
 constexpr std::uint8_t kBroken = 1, kWhole = 2;  // marks; 0 for what is on the other side
 
-/// Marks the samples of `mask`.
-Array3D<std::uint8_t> judge(Array3D<std::uint8_t> mask, double kept,
+/// Marks the samples of `mask`: those of whole pieces with fewer than `least` samples are broken,
+/// unless any of them is fixed.
+Array3D<std::uint8_t> judge(const Array3D<std::uint8_t>& mask, double least,
                             const Array3D<std::uint8_t>* fixed) {
-  Array3D<std::uint8_t> marks(mask.size());
-  forEachPiece(std::move(mask), [&](const Piece& piece) {
-    const bool broken =
-        piece.whole && static_cast<double>(piece.samples.size()) < kept &&
-        (!fixed || std::none_of(piece.samples.begin(), piece.samples.end(),
-                                [&](std::size_t s) { return fixed->values()[s] != 0; }));
-    for (const std::size_t s : piece.samples) marks.values()[s] = broken ? kBroken : kWhole;
+  const Pieces pieces(mask);
+  std::vector<std::uint8_t> marks(pieces.regions.count);
+  for (std::uint32_t n = 0; n < marks.size(); ++n) {
+    if (pieces.samples[n] == 0) continue;
+    const bool broken = pieces.whole[n] && static_cast<double>(pieces.samples[n]) < least;
+    marks[n] = broken ? kBroken : kWhole;
+  }
+  if (fixed) {
+    pieces.regions.forEachRun([&](const Regions::Run& run, Vec3i p) {
+      if (marks[run.region] != kBroken) return;
+      for (; p.x < run.end; ++p.x) {
+        if ((*fixed)[p]) marks[run.region] = kWhole;
+      }
+    });
+  }
+  Array3D<std::uint8_t> marked(mask.size());
+  pieces.regions.parallelForEachRun([&](const Regions::Run& run, const Vec3i& first) {
+    std::fill_n(&marked[first], run.end - run.begin, marks[run.region]);
   });
-  return marks;
+  return marked;
 }
 
 /// Gives what lies above the depth to the piece that is fewest steps away, whole ones first.
@@ -133,17 +150,14 @@ void addSkin(const Array3D<std::uint8_t>& all, const Array3D<std::uint8_t>* fixe
              Array3D<std::uint8_t>& marks) {
   constexpr int kThick = 2;  // steps: half a voxel deep, but for edges and corners
   for (int step = 0; step < kThick; ++step) {
-    std::vector<std::pair<std::size_t, std::uint8_t>> taken;
-    for (std::size_t s = 0; s < all.count(); ++s) {
-      if (!all.values()[s] || marks.values()[s] || (fixed && fixed->values()[s])) continue;
-      std::uint8_t mark = 0;
-      for (const Vec3i& d : kSteps) {
-        const Vec3i q = all.ijk(s) + d;
-        if (all.contains(q)) mark = std::max(mark, marks[q]);
+    const Array3D<std::uint8_t> before = marks;
+    parallelForEachCell(all.size(), [&](const Vec3i& p) {
+      if (!all[p] || before[p] || (fixed && (*fixed)[p])) return;
+      for (const Vec3i& d : kFaceSteps) {
+        const Vec3i q = p + d;
+        if (all.contains(q)) marks[p] = std::max(marks[p], before[q]);
       }
-      if (mark) taken.emplace_back(s, mark);
-    }
-    for (const auto& [s, mark] : taken) marks.values()[s] = mark;
+    });
   }
 }
 
@@ -164,7 +178,7 @@ class OtherSide {
   bool solid_;
 };
 
-/// Gives each broken sample the offset of a neighbour that shows the other side there: from outside
+/// Gives each broken sample the offset of a neighbor that shows the other side there: from outside
 /// in, a ring of samples at a time takes the offsets of the one around it.
 void takeFromAround(const DistanceField& example, const Vec3i& other, const OtherSide& otherSide,
                     Array3D<std::uint8_t>& broken, std::vector<std::size_t> left,
@@ -179,7 +193,7 @@ void takeFromAround(const DistanceField& example, const Vec3i& other, const Othe
       std::vector<Vec3i> cells;
       float sum = 0;
       int count = 0;
-      for (const Vec3i& step : kSteps) {
+      for (const Vec3i& step : kLatticeSteps) {
         const Vec3i q = p + step;
         if (!origins.contains(q) || broken[q]) continue;
         const Vec3i there = origins[q].cell();
@@ -212,11 +226,11 @@ void takeFromAround(const DistanceField& example, const Vec3i& other, const Othe
 
 /// Moves the broken pieces of one side of `values`, as seen at a depth, to the other.
 std::int64_t dropSide(const DistanceField& example, const Array3D<float>& values, float sign,
-                      double depth, double kept, Origins& origins,
+                      double depth, double least, Origins& origins,
                       const BrokenPiecesOptions& options) {
   const std::optional<Vec3i> other = nearestOther(example, sign, options.usable);
   if (!other) return 0;
-  Array3D<std::uint8_t> marks = judge(side(values, sign, depth), kept, options.fixed);
+  Array3D<std::uint8_t> marks = judge(side(values, sign, depth), least, options.fixed);
   if (depth > 0) addSkin(side(values, sign, 0), options.fixed, marks);
   std::vector<std::size_t> left;
   for (std::size_t s = 0; s < marks.count(); ++s) {
@@ -232,23 +246,27 @@ std::int64_t dropSide(const DistanceField& example, const Array3D<float>& values
 }  // namespace
 
 std::int64_t dropBrokenPieces(const DistanceField& example, Origins& origins,
-                              const BrokenPiecesOptions& options) {
+                              const BrokenPiecesOptions& options, const Progress& progress) {
+  progress.report("clearing broken pieces", 0);
   const Array3D<float> values = options.values ? *options.values : copied(example, origins);
   ExamplePieces solid = piecesOf(side(example.values, 1, 0));
   double depth = 0;
   if (!solid.mostlyWhole()) {
-    const double contact = kContact * example.voxelSize;
+    const double contact = kContactDepth * example.voxelSize;
     const ExamplePieces deeper = piecesOf(side(example.values, 1, contact));
     if (deeper.inWhole > 0 && deeper.mostlyWhole()) {
       solid = deeper;
       depth = contact;
     }
   }
-  std::int64_t changed = dropSide(example, values, 1, 0, solid.kept(), origins, options);
+  const double bubble = piecesOf(side(example.values, -1, 0)).least();
+  progress.report("clearing broken pieces", 0.2);
+  std::int64_t changed = dropSide(example, values, 1, 0, solid.least(), origins, options);
+  progress.report("clearing broken pieces", 0.4);
   if (depth > 0 && options.values) {
-    changed += dropSide(example, values, 1, depth, solid.kept(), origins, options);
+    changed += dropSide(example, values, 1, depth, solid.least(), origins, options);
   }
-  const double bubble = piecesOf(side(example.values, -1, 0)).kept();
+  progress.report("clearing broken pieces", 0.7);
   return changed + dropSide(example, values, -1, 0, bubble, origins, options);
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/array3d.h"
 #include "core/origin.h"
+#include "core/progress.h"
 #include "sdf/distance_field.h"
 
 namespace exemplar {
@@ -29,12 +30,14 @@ struct BrokenPiecesOptions {
 /// surface, the latter are the measure; and given `values`, what is a broken piece half a voxel
 /// below the surface goes too, with the skin around it.
 ///
-/// Each sample that changes takes the offset (example 0, no turns) of a neighbour that says air
-/// there (solid in a bubble), the nearest to its surroundings in value; only where there is none,
-/// an origin just at the other side of the example's surface.
+/// Each sample that changes takes the offset (example 0, no turns) of a neighbor that shows air
+/// there (solid in a bubble), the nearest to its surroundings in value; only where none does, an
+/// origin just at the other side of the example's surface.
 ///
-/// Returns how many samples changed. O(samples). Deterministic.
+/// Returns how many samples changed. O(samples). The same bytes at any number of threads. Throws
+/// `Cancelled`, with origins still sound.
 std::int64_t dropBrokenPieces(const DistanceField& example, Origins& origins,
-                              const BrokenPiecesOptions& options = {});
+                              const BrokenPiecesOptions& options = {},
+                              const Progress& progress = {});
 
 }  // namespace exemplar

@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/parallel.h"
+#include "synth/geometry/seams/lattice_cut.h"
 
 namespace exemplar {
 namespace {
 
-constexpr std::array<Vec3i, 6> kSteps{
-    {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 constexpr std::size_t kGrain = 4096;
 /// Of the rounds in the gradient domain: near the best for regions of a dozen samples across.
 constexpr float kOver = 1.7f;
@@ -25,43 +25,54 @@ constexpr float kRelaxed = 4;
 
 /// The samples within `reach` steps of a seam, in the order of the grid.
 std::vector<std::size_t> nearSeams(const Origins& origins, int reach) {
-  Array3D<std::uint8_t> mark(origins.size());
-  std::vector<std::size_t> front, next;
-  const auto add = [&](std::size_t s) {
-    if (mark.values()[s]) return;
-    mark.values()[s] = 1;
-    next.push_back(s);
-  };
   if (reach == 0) return {};
-  for (std::size_t s = 0; s < origins.count(); ++s) {
-    const Vec3i p = origins.ijk(s);
-    for (int d = 0; d < 6; d += 2) {
-      const Vec3i q = p + kSteps[d];
-      if (!origins.contains(q)) continue;
-      const std::size_t t = origins.index(q);
-      if (origins.values()[t].cell() - q == origins.values()[s].cell() - p) continue;
-      add(s);
-      add(t);
+  // Steps to the nearest sample beside a seam: along one axis after another, there and back.
+  const Vec3i n = origins.size();
+  constexpr int kFar = 254;
+  Array3D<std::uint8_t> steps(n, kFar);
+  parallelForEachCell(n, [&](const Vec3i& p) {
+    const Vec3i offset = origins[p].cell() - p;
+    for (const Vec3i& step : kFaceSteps) {
+      const Vec3i q = p + step;
+      if (origins.contains(q) && origins[q].cell() - q != offset) steps[p] = 0;
     }
-  }
-  for (int step = 1; step < reach; ++step) {
-    front.swap(next);
-    next.clear();
-    for (const std::size_t s : front) {
-      for (const Vec3i& d : kSteps) {
-        const Vec3i q = origins.ijk(s) + d;
-        if (origins.contains(q)) add(origins.index(q));
-      }
+  });
+  const auto nearer = [](std::uint8_t& here, std::uint8_t there) {
+    here = std::min<std::uint8_t>(here, std::min<std::uint8_t>(there, kFar) + 1);
+  };
+  const auto rows = [&](int count, const auto& body) {
+    parallelFor(0, static_cast<std::size_t>(count), 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t row = from; row < to; ++row) body(static_cast<int>(row));
+    });
+  };
+  rows(n.z, [&](int k) {
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 1; i < n.x; ++i) nearer(steps(i, j, k), steps(i - 1, j, k));
+      for (int i = n.x - 1; i-- > 0;) nearer(steps(i, j, k), steps(i + 1, j, k));
     }
-  }
+    for (int j = 1; j < n.y; ++j) {
+      for (int i = 0; i < n.x; ++i) nearer(steps(i, j, k), steps(i, j - 1, k));
+    }
+    for (int j = n.y - 1; j-- > 0;) {
+      for (int i = 0; i < n.x; ++i) nearer(steps(i, j, k), steps(i, j + 1, k));
+    }
+  });
+  rows(n.y, [&](int j) {
+    for (int k = 1; k < n.z; ++k) {
+      for (int i = 0; i < n.x; ++i) nearer(steps(i, j, k), steps(i, j, k - 1));
+    }
+    for (int k = n.z - 1; k-- > 0;) {
+      for (int i = 0; i < n.x; ++i) nearer(steps(i, j, k), steps(i, j, k + 1));
+    }
+  });
   std::vector<std::size_t> samples;
-  for (std::size_t s = 0; s < mark.count(); ++s) {
-    if (mark.values()[s]) samples.push_back(s);
+  for (std::size_t s = 0; s < steps.count(); ++s) {
+    if (steps.values()[s] < std::min(reach, kFar)) samples.push_back(s);
   }
   return samples;
 }
 
-/// A sample's six neighbours: the sample itself where there is none.
+/// A sample's six neighbors: the sample itself where there is none.
 using Neighbors = std::array<std::uint32_t, 6>;
 
 class Relaxation {
@@ -72,7 +83,7 @@ class Relaxation {
       : values_(std::move(values)), where_(where), neighbors_(where.size()), next_(where.size()) {
     overSamples([&](std::size_t n, std::size_t s) {
       for (int d = 0; d < 6; ++d) {
-        const Vec3i q = grid.ijk(s) + kSteps[d];
+        const Vec3i q = grid.ijk(s) + kLatticeSteps[d];
         neighbors_[n][d] = static_cast<std::uint32_t>(grid.contains(q) ? grid.index(q) : s);
       }
     });
@@ -85,7 +96,7 @@ class Relaxation {
     overSamples([&](std::size_t n, std::size_t s) {
       for (int d = 0; d < 6; ++d) {
         const std::size_t t = neighbors_[n][d];
-        rises_[n][d] = t == s ? 0 : rise(example, usable, origins, s, t, kSteps[d]);
+        rises_[n][d] = t == s ? 0 : rise(example, usable, origins, s, t, kLatticeSteps[d]);
       }
     });
     for (std::size_t n = 0; n < where_.size(); ++n) {
@@ -95,9 +106,10 @@ class Relaxation {
   }
 
   /// Gives the values the slopes of their sources: samples whose coordinates' sum is even, then the
-  /// others, for those of one kind are no neighbours.
-  void blend(int rounds) {
+  /// others, for no two of one kind are neighbors.
+  void blend(int rounds, const Progress& progress) {
     for (int half = 0; half < 2 * rounds; ++half) {
+      progress.report("evening seams", half / (2.0 * rounds));
       const std::vector<std::uint32_t>& color = colors_[half % 2];
       parallelFor(0, color.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m) {
@@ -120,12 +132,13 @@ class Relaxation {
   }
 
   /// Relaxes the values to slope 1, in Jacobi's rounds.
-  void relax(int rounds) {
+  void relax(int rounds, const Progress& progress) {
     std::vector<float> held(where_.size());
     overSamples([&](std::size_t n, std::size_t s) { held[n] = distanceToZero(n, s); });
     // Without a surface near seams there is nothing to be a distance to.
     if (std::all_of(held.begin(), held.end(), [](float h) { return h == 0; })) return;
     for (int round = 0; round < rounds; ++round) {
+      progress.report("evening seams", static_cast<double>(round) / rounds);
       overSamples([&](std::size_t n, std::size_t s) {
         const float v = values_[s];
         if (held[n] != 0) {
@@ -147,7 +160,7 @@ class Relaxation {
   /// How near to the surface a sample that would cross it stays, in voxels.
   static constexpr float kLeast = 0.05f;
 
-  /// By how much the sources of s and of t, one step on, say that the field rises from s to t, in
+  /// By how much the field rises from s to t, one step on, according to the sources of both, in
   /// voxels.
   static float rise(const DistanceField& example, const Array3D<std::uint8_t>* usable,
                     const Origins& origins, std::size_t s, std::size_t t, const Vec3i& step) {
@@ -178,7 +191,7 @@ class Relaxation {
   }
 
   /// The signed distance to the zero set, by the slope across it, where it passes between a sample
-  /// and a neighbour; 0 elsewhere.
+  /// and a neighbor; 0 elsewhere.
   float distanceToZero(std::size_t n, std::size_t s) const {
     const float v = values_[s];
     bool beside = false;
@@ -209,31 +222,38 @@ class Relaxation {
   const std::vector<std::size_t>& where_;
   std::vector<Neighbors> neighbors_;
   std::vector<float> next_;
-  std::vector<std::array<float, 6>> rises_;  ///< from each sample to its neighbours, in voxels
+  std::vector<std::array<float, 6>> rises_;  ///< from each sample to its neighbors, in voxels
   std::array<std::vector<std::uint32_t>, 2> colors_;
 };
 
 }  // namespace
 
 DistanceField evenSeams(const DistanceField& example, const Origins& origins,
-                        const EvenSeamsOptions& options) {
-  DistanceField field = example;
+                        const EvenSeamsOptions& options, const Progress& progress) {
+  progress.report("evening seams", 0);
+  DistanceField field;
+  field.voxelSize = example.voxelSize;
+  field.origin = example.origin;
+  field.truncation = example.truncation;
   field.values = Array3D<float>(origins.size());
   std::vector<float> voxels(origins.count());
   const float voxel = static_cast<float>(example.voxelSize);
-  for (std::size_t s = 0; s < origins.count(); ++s) {
-    const float v = example.values[origins.values()[s].cell()];
-    field.values.values()[s] = v;
-    voxels[s] = v / voxel;
-  }
+  parallelFor(0, origins.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const float v = example.values[origins.values()[s].cell()];
+      field.values.values()[s] = v;
+      voxels[s] = v / voxel;
+    }
+  });
   std::vector<std::size_t> where = nearSeams(origins, options.reach);
   if (options.fixed) {
     std::erase_if(where, [&](std::size_t s) { return options.fixed->values()[s] != 0; });
   }
+  progress.report("evening seams", 0.2);
   Relaxation relaxation(std::move(voxels), origins, where);
   relaxation.noteSlopes(example, origins, options.usable);
-  relaxation.blend(options.blends);
-  relaxation.relax(options.rounds);
+  relaxation.blend(options.blends, progress.part(0.3, 0.8));
+  relaxation.relax(options.rounds, progress.part(0.8, 1));
   for (const std::size_t s : where) {
     float v = relaxation.values()[s] * voxel;
     if (example.truncation > 0) v = std::clamp(v, -example.truncation, example.truncation);

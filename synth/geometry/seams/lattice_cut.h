@@ -8,9 +8,17 @@
 #include <deque>
 #include <vector>
 
+#include "core/vec.h"
+
 namespace exemplar {
 
-/// A minimum cut of a graph whose nodes lie on a lattice, with six neighbours at most: which side
+/// Steps to the six neighbors of a node or sample, in the order in which the steps of a seam visit
+/// them: that of `LatticeCut`'s directions. Sums over neighbors are made in this order, so it is
+/// part of the results' bytes.
+inline constexpr std::array<Vec3i, 6> kLatticeSteps{
+    {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+
+/// A minimum cut of a graph whose nodes lie on a lattice, with six neighbors at most: which side
 /// each node is on where the capacities cut are least.
 ///
 /// The maximum flow is found by two search trees that meet (Boykov, Kolmogorov: "An experimental
@@ -19,7 +27,7 @@ namespace exemplar {
 /// the same everywhere. Nearly linear in practice on the graphs of seams.
 class LatticeCut {
  public:
-  /// A neighbour's direction: +x, -x, +y, -y, +z, -z.
+  /// A neighbor's direction: +x, -x, +y, -y, +z, -z.
   static constexpr int opposite(int direction) { return direction ^ 1; }
 
   explicit LatticeCut(int nodes) : nodes_(nodes) {}
@@ -28,7 +36,7 @@ class LatticeCut {
   void addTerminal(int node, std::int64_t secondLessFirst) {
     nodes_[node].terminal += secondLessFirst;
   }
-  /// Makes `b` the neighbour of `a` in `direction`: `cost` >= 0 where `a` is on the first side and
+  /// Makes `b` the neighbor of `a` in `direction`: `cost` >= 0 where `a` is on the first side and
   /// `b` on the second, `reverse` >= 0 the other way round. Once a pair.
   void connect(int a, int b, int direction, std::int64_t cost, std::int64_t reverse);
 
@@ -45,7 +53,7 @@ class LatticeCut {
 
   struct Node {
     std::array<std::int32_t, 6> neighbor{-1, -1, -1, -1, -1, -1};
-    std::array<std::int64_t, 6> residual{};  ///< towards each neighbour
+    std::array<std::int64_t, 6> residual{};  ///< towards each neighbor
     std::int64_t terminal = 0;               ///< > 0: from the first terminal, < 0: to the second
     std::int32_t distance = 0, stamp = 0;    ///< to the terminal, when that was known
     std::int8_t parent = kNoParent;          ///< direction, or the terminal

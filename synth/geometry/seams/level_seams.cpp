@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/cells.h"
+
 namespace exemplar {
 namespace {
 
@@ -31,12 +33,11 @@ void refineSeamsAround(const Array3D<float>& source, const Array3D<float>& targe
   }
   const Vec3i n = origins.size();
   Array3D<std::uint8_t> outer(n);
-  for (std::size_t s = 0; s < outer.count(); ++s) {
-    const Vec3i p = outer.ijk(s);
+  parallelForEachCell(n, [&](const Vec3i& p) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (periodic[axis] && (p[axis] == 0 || p[axis] == n[axis] - 1)) outer.values()[s] = 1;
+      if (periodic[axis] && (p[axis] == 0 || p[axis] == n[axis] - 1)) outer[p] = 1;
     }
-  }
+  });
   const SeamOptions around = options;
   const Array3D<std::uint8_t> kept = options.fixed ? *options.fixed : Array3D<std::uint8_t>(n);
   Vec3i half{0, 0, 0};
@@ -80,7 +81,7 @@ void cutSeams(const PyramidLevel& level, const Array3D<float>& target, PyramidSo
   if (!air.empty()) options.air = &airWithin;
   refineSeamsAround(source, cropped(clamped(target, kSeamTruncation)), level.target.periodic,
                     options, origins, progress.part(0, 0.6));
-  if (alignPieces(source, origins, 1, options) > 0) {
+  if (alignPieces(source, origins, 1, options, progress) > 0) {
     Array3D<float> shown(origins.size());
     for (std::size_t s = 0; s < shown.count(); ++s) {
       shown.values()[s] = source[origins.values()[s].cell()];

@@ -3,21 +3,25 @@
 
 #include "synth/geometry/seams/seams.h"
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <mutex>
+#include <numeric>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/parallel.h"
 #include "synth/geometry/seams/lattice_cut.h"
+#include "synth/geometry/seams/regions.h"
 
 namespace exemplar {
 namespace {
-
-/// In the order of LatticeCut's directions.
-constexpr std::array<Vec3i, 6> kSteps{
-    {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 
 /// In millionths. (As fast as it gets: this is most of the work.)
 std::int64_t rounded(double cost) {
@@ -45,7 +49,7 @@ class SeamEnergy {
   std::int64_t face(const Vec3i& x, const Vec3i& a, const Vec3i& y, const Vec3i& b) const {
     if (a == b) return 0;
     const double xa = copied(x, a), xb = copied(x, b), ya = copied(y, a), yb = copied(y, b);
-    // Rounded before they are compared: so a metric it is, which cuts rest on, to the last digit.
+    // Rounded before they are compared: so it is a metric, as cuts require, to the last digit.
     const std::int64_t here = std::abs(rounded(limited(xa)) - rounded(limited(xb)));
     const std::int64_t there = std::abs(rounded(limited(ya)) - rounded(limited(yb)));
     const std::int64_t slopes =
@@ -73,64 +77,87 @@ class SeamEnergy {
 
 /// A connected region of one offset.
 struct Piece {
+  /// Samples along x, first to last.
+  struct Run {
+    Vec3i first;
+    int length;
+  };
   Vec3i offset;
-  std::vector<Vec3i> samples;
-  Vec3i low, high;  ///< of its surroundings too, inclusive
+  std::vector<Run> runs;
+  std::size_t samples = 0;
+  Vec3i low, high;  ///< inclusive
+
+  template <class Body>
+  void forEachSample(const Body& body) const {
+    for (const Run& run : runs) {
+      Vec3i x = run.first;
+      for (int n = 0; n < run.length; ++n, ++x.x) body(static_cast<const Vec3i&>(x));
+    }
+  }
 };
 
+/// All pieces of at least the least size, the largest first.
 std::vector<Piece> findPieces(const Origins& origins, const SeamOptions& options) {
-  std::vector<Piece> pieces;
-  Array3D<std::uint8_t> seen(origins.size());
-  std::vector<Vec3i> stack;
-  for (std::size_t s = 0; s < origins.count(); ++s) {
-    if (seen.values()[s]) continue;
-    const Vec3i first = origins.ijk(s);
-    Piece piece{origins[first].cell() - first, {}, first, first};
-    seen.values()[s] = 1;
-    stack.assign(1, first);
-    while (!stack.empty()) {
-      const Vec3i x = stack.back();
-      stack.pop_back();
-      piece.samples.push_back(x);
-      piece.low = min(piece.low, x);
-      piece.high = max(piece.high, x);
-      for (const Vec3i& step : kSteps) {
-        const Vec3i y = x + step;
-        if (!origins.contains(y) || seen[y] || origins[y].cell() - y != piece.offset) continue;
-        seen[y] = 1;
-        stack.push_back(y);
-      }
-    }
-    if (static_cast<int>(piece.samples.size()) < options.smallest) continue;
-    const Vec3i reach{options.reach, options.reach, options.reach};
-    piece.low = max(piece.low - reach, Vec3i{0, 0, 0});
-    piece.high = min(piece.high + reach, origins.size() - Vec3i{1, 1, 1});
-    pieces.push_back(std::move(piece));
+  const Regions regions =
+      findRegions(origins.size(), [&](const Vec3i& x) { return origins[x].cell() - x; });
+  std::vector<std::size_t> samples(regions.count);
+  for (const Regions::Run& run : regions.runs) {
+    samples[run.region] += static_cast<std::size_t>(run.end - run.begin);
   }
-  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
-    return a.samples.size() > b.samples.size();
+  constexpr std::size_t kSmall = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> number(regions.count, kSmall);
+  std::vector<Piece> pieces;
+  for (std::uint32_t region = 0; region < regions.count; ++region) {
+    if (static_cast<std::int64_t>(samples[region]) < options.smallest) continue;
+    number[region] = pieces.size();
+    pieces.emplace_back();
+  }
+  regions.forEachRun([&](const Regions::Run& run, const Vec3i& first) {
+    if (number[run.region] == kSmall) return;
+    Piece& piece = pieces[number[run.region]];
+    const Vec3i last{run.end - 1, first.y, first.z};
+    if (piece.runs.empty()) {
+      piece.offset = origins[first].cell() - first;
+      piece.low = first;
+      piece.high = last;
+    }
+    piece.low = min(piece.low, first);
+    piece.high = max(piece.high, last);
+    piece.samples += static_cast<std::size_t>(run.end - run.begin);
+    piece.runs.push_back({first, run.end - run.begin});
   });
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.samples > b.samples; });
   return pieces;
 }
 
+/// A piece and all that its move may reach, inside the result.
+CellBox surroundings(const Piece& piece, int reach, const Vec3i& size) {
+  return CellBox{piece.low, piece.high + Vec3i{1, 1, 1}}.grown(reach) & CellBox::of(size);
+}
+
 /// The samples of another offset within `reach` steps of a piece that could take its offset, as
-/// `nodes` in the order found, and their numbers in the piece's box (-1 elsewhere).
-void findSurroundings(const Piece& piece, const Origins& origins, const SeamEnergy& energy,
-                      int reach, std::vector<Vec3i>& nodes, Array3D<std::int32_t>& number) {
-  number = Array3D<std::int32_t>(piece.high - piece.low + Vec3i{1, 1, 1}, -1);
+/// `nodes`, and their numbers in the box of its surroundings (-1 elsewhere). What the piece has
+/// lost meanwhile does not count.
+void findNodes(const Piece& piece, const CellBox& box, const Origins& origins,
+               const SeamEnergy& energy, int reach, std::vector<Vec3i>& nodes,
+               Array3D<std::int32_t>& number) {
+  number = Array3D<std::int32_t>(box.size(), -1);
   nodes.clear();
   std::size_t begin = 0;
   const auto grow = [&](const Vec3i& x) {
-    for (const Vec3i& step : kSteps) {
+    for (const Vec3i& step : kLatticeSteps) {
       const Vec3i y = x + step;
-      if (!number.contains(y - piece.low) || number[y - piece.low] >= 0) continue;
+      if (!number.contains(y - box.begin) || number[y - box.begin] >= 0) continue;
       if (origins[y].cell() - y == piece.offset || !energy.possible(y, piece.offset)) continue;
       if (energy.fixed(y)) continue;
-      number[y - piece.low] = static_cast<std::int32_t>(nodes.size());
+      number[y - box.begin] = static_cast<std::int32_t>(nodes.size());
       nodes.push_back(y);
     }
   };
-  for (const Vec3i& x : piece.samples) grow(x);
+  piece.forEachSample([&](const Vec3i& x) {
+    if (origins[x].cell() - x == piece.offset) grow(x);
+  });
   for (int step = 1; step < reach; ++step) {
     const std::size_t end = nodes.size();
     for (std::size_t n = begin; n < end; ++n) grow(Vec3i(nodes[n]));
@@ -140,34 +167,55 @@ void findSurroundings(const Piece& piece, const Origins& origins, const SeamEner
 
 /// One expansion move.
 void expand(const Piece& piece, const SeamEnergy& energy, int reach, Origins& origins) {
+  const CellBox box = surroundings(piece, reach, origins.size());
   std::vector<Vec3i> nodes;
   Array3D<std::int32_t> number;
-  findSurroundings(piece, origins, energy, reach, nodes, number);
+  findNodes(piece, box, origins, energy, reach, nodes, number);
   if (nodes.empty()) return;
-  LatticeCut cut(static_cast<int>(nodes.size()));
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const Vec3i x = nodes[n];
-    const Vec3i own = origins[x].cell() - x;
-    std::int64_t difference = energy.sample(x, piece.offset) - energy.sample(x, own);
-    for (int direction = 0; direction < 6; ++direction) {
-      const Vec3i y = x + kSteps[direction];
-      if (!origins.contains(y)) continue;
-      const Vec3i other = origins[y].cell() - y;
-      const int m = number.contains(y - piece.low) ? number[y - piece.low] : -1;
-      if (m < 0) {
-        difference += energy.face(x, piece.offset, y, other) - energy.face(x, own, y, other);
-      } else if (direction % 2 == 0) {
-        const std::int64_t taken = energy.face(x, own, y, piece.offset);    // y is taken
-        const std::int64_t takes = energy.face(x, piece.offset, y, other);  // x is taken
-        // A capacity cannot be below 0. Counting what is there as cheaper, and nothing as dearer,
-        // a move that pays in the cut pays even more in truth.
-        const std::int64_t keep = std::min(energy.face(x, own, y, other), taken + takes);
-        difference += takes - keep;
-        cut.addTerminal(m, -takes);
-        cut.connect(static_cast<int>(n), m, direction, taken + takes - keep, 0);
+  // What the move costs is found for all nodes at once; the cut then is of integers.
+  struct Cost {
+    std::int64_t own = 0;                 ///< of taking this node alone
+    std::array<std::int64_t, 3> takes{};  ///< to be added where the neighbor along an axis is taken
+    std::array<std::int64_t, 3> both{};   ///< saved where both are
+    std::array<std::int32_t, 3> neighbor{-1, -1, -1};
+  };
+  std::vector<Cost> costs(nodes.size());
+  parallelFor(0, nodes.size(), 512, [&](std::size_t from, std::size_t to) {
+    for (std::size_t n = from; n < to; ++n) {
+      Cost& cost = costs[n];
+      const Vec3i x = nodes[n];
+      const Vec3i own = origins[x].cell() - x;
+      cost.own = energy.sample(x, piece.offset) - energy.sample(x, own);
+      for (int direction = 0; direction < 6; ++direction) {
+        const Vec3i y = x + kLatticeSteps[direction];
+        if (!origins.contains(y)) continue;
+        const Vec3i other = origins[y].cell() - y;
+        const int m = number.contains(y - box.begin) ? number[y - box.begin] : -1;
+        if (m < 0) {
+          cost.own += energy.face(x, piece.offset, y, other) - energy.face(x, own, y, other);
+        } else if (direction % 2 == 0) {
+          const std::int64_t taken = energy.face(x, own, y, piece.offset);    // y is taken
+          const std::int64_t takes = energy.face(x, piece.offset, y, other);  // x is taken
+          // A capacity cannot be below 0. Counting the present state as cheaper, and nothing as
+          // dearer, a move that pays in the cut pays even more in truth.
+          const std::int64_t keep = std::min(energy.face(x, own, y, other), taken + takes);
+          cost.own += takes - keep;
+          cost.takes[direction / 2] = takes;
+          cost.both[direction / 2] = taken + takes - keep;
+          cost.neighbor[direction / 2] = m;
+        }
       }
     }
-    cut.addTerminal(static_cast<int>(n), difference);
+  });
+  LatticeCut cut(static_cast<int>(nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const Cost& cost = costs[n];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (cost.neighbor[axis] < 0) continue;
+      cut.addTerminal(cost.neighbor[axis], -cost.takes[axis]);
+      cut.connect(static_cast<int>(n), cost.neighbor[axis], 2 * axis, cost.both[axis], 0);
+    }
+    cut.addTerminal(static_cast<int>(n), cost.own);
   }
   cut.solve();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -175,12 +223,63 @@ void expand(const Piece& piece, const SeamEnergy& energy, int reach, Origins& or
   }
 }
 
-/// Whether two pieces' moves could see each other.
-bool touch(const Piece& a, const Piece& b) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (a.low[axis] > b.high[axis] + 1 || b.low[axis] > a.high[axis] + 1) return false;
+/// Whether moves in two boxes could see each other.
+bool touch(const CellBox& a, const CellBox& b) { return !(a.grown(1) & b).empty(); }
+
+/// Pieces that may move at once: which round of pieces that do not touch each is in, by the boxes
+/// of their surroundings. A round is the first piece that waits, and all after it that are free.
+std::vector<std::vector<std::uint32_t>> roundsOf(const std::vector<CellBox>& boxes) {
+  constexpr std::size_t kMost = 64;  // pieces in a round
+  std::vector<std::uint32_t> waiting(boxes.size());
+  std::iota(waiting.begin(), waiting.end(), 0u);
+  std::vector<std::vector<std::uint32_t>> rounds;
+  while (!waiting.empty()) {
+    std::vector<std::uint32_t> round, later;
+    for (const std::uint32_t piece : waiting) {
+      const bool free = round.size() < kMost &&
+                        std::none_of(round.begin(), round.end(), [&](std::uint32_t other) {
+                          return touch(boxes[piece], boxes[other]);
+                        });
+      (free ? round : later).push_back(piece);
+    }
+    rounds.push_back(std::move(round));
+    waiting = std::move(later);
   }
-  return true;
+  return rounds;
+}
+
+/// Runs `move(piece)` for all pieces, in parallel, each after those of earlier rounds that it
+/// touches: the same result as one round after another. Throws what a move throws.
+template <class Move>
+void inOrder(const std::vector<CellBox>& boxes, const Move& move) {
+  const std::vector<std::vector<std::uint32_t>> rounds = roundsOf(boxes);
+  std::vector<std::vector<std::uint32_t>> after(boxes.size());
+  std::vector<std::atomic<int>> waitsFor(boxes.size());
+  std::vector<std::uint32_t> before, ready;
+  for (const std::vector<std::uint32_t>& round : rounds) {
+    for (const std::uint32_t piece : round) {
+      int count = 0;
+      for (const std::uint32_t other : before) {
+        if (!touch(boxes[piece], boxes[other])) continue;
+        after[other].push_back(piece);
+        ++count;
+      }
+      waitsFor[piece] = count;
+      if (count == 0) ready.push_back(piece);
+    }
+    before.insert(before.end(), round.begin(), round.end());
+  }
+  tbb::task_group tasks;
+  std::function<void(std::uint32_t)> start = [&](std::uint32_t piece) {
+    tasks.run([&, piece] {
+      move(piece);
+      for (const std::uint32_t next : after[piece]) {
+        if (waitsFor[next].fetch_sub(1) == 1) start(next);
+      }
+    });
+  };
+  for (const std::uint32_t piece : ready) start(piece);
+  tasks.wait();
 }
 
 }  // namespace
@@ -189,87 +288,94 @@ void refineSeams(const Array3D<float>& example, const Array3D<float>& target, Or
                  const SeamOptions& options, const Progress& progress) {
   const SeamEnergy energy(example, target, options);
   for (int pass = 0; pass < options.passes; ++pass) {
-    std::vector<Piece> waiting = findPieces(origins, options);
-    const double all = static_cast<double>(waiting.size());
-    // Rounds of pieces that do not touch: the first that waits, and all after it that are free. A
-    // piece may have lost samples to earlier ones; those it has not any more are checked below.
-    while (!waiting.empty()) {
-      progress.report("cutting seams",
-                      (pass + 1 - static_cast<double>(waiting.size()) / all) / options.passes);
-      std::vector<Piece> round, later;
-      for (Piece& piece : waiting) {
-        const bool free = round.size() < 64 &&
-                          std::none_of(round.begin(), round.end(),
-                                       [&](const Piece& other) { return touch(piece, other); });
-        (free ? round : later).push_back(std::move(piece));
-      }
-      parallelFor(0, round.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) {
-          Piece& piece = round[n];
-          std::erase_if(piece.samples,
-                        [&](const Vec3i& x) { return origins[x].cell() - x != piece.offset; });
-          expand(piece, energy, options.reach, origins);
-        }
-      });
-      waiting = std::move(later);
+    const Progress passing = progress.part(static_cast<double>(pass) / options.passes,
+                                           static_cast<double>(pass + 1) / options.passes);
+    passing.report("cutting seams", 0);
+    const std::vector<Piece> pieces = findPieces(origins, options);
+    std::vector<CellBox> boxes;
+    for (const Piece& piece : pieces) {
+      boxes.push_back(surroundings(piece, options.reach, origins.size()));
     }
+    std::mutex reporting;
+    std::size_t done = 0;
+    inOrder(boxes, [&](std::uint32_t n) {
+      passing.check();
+      expand(pieces[n], energy, options.reach, origins);
+      const std::lock_guard lock(reporting);
+      ++done;
+      passing.report("cutting seams",
+                     static_cast<double>(done) / static_cast<double>(pieces.size()));
+    });
   }
 }
 
 int alignPieces(const Array3D<float>& example, Origins& origins, int reach,
-                const SeamOptions& options) {
-  // Samples have no say: what they should be near to was made with the pieces where they were.
+                const SeamOptions& options, const Progress& progress) {
+  // What samples should be near to does not count: it was made with the pieces where they were.
   const SeamEnergy energy(example, example, options);
   struct Face {
     Vec3i x, y, other;
   };
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   const int side = 2 * reach + 1, candidates = side * side * side;
   int moved = 0;
   std::vector<Face> faces;
+  std::vector<std::int64_t> costs(candidates);
   for (const Piece& piece : findPieces(origins, options)) {
-    if (options.fixed && std::any_of(piece.samples.begin(), piece.samples.end(),
-                                     [&](const Vec3i& x) { return energy.fixed(x); })) {
-      continue;
-    }
+    progress.check();
+    const auto anyOf = [&](const auto& test) {
+      bool any = false;
+      piece.forEachSample([&](const Vec3i& x) { any = any || test(x); });
+      return any;
+    };
+    if (options.fixed && anyOf([&](const Vec3i& x) { return energy.fixed(x); })) continue;
     faces.clear();
-    Vec3i low = piece.samples.front(), high = low;
-    for (const Vec3i& x : piece.samples) {
-      low = min(low, x);
-      high = max(high, x);
-      for (const Vec3i& step : kSteps) {
+    piece.forEachSample([&](const Vec3i& x) {
+      for (const Vec3i& step : kLatticeSteps) {
         const Vec3i y = x + step;
         if (!origins.contains(y)) continue;
         const Vec3i other = origins[y].cell() - y;
         if (other != piece.offset) faces.push_back({x, y, other});
       }
-    }
-    const auto cost = [&](const Vec3i& offset, std::int64_t limit) {
+    });
+    // A candidate is given up where it costs more than the best so far: never the best itself.
+    std::atomic<std::int64_t> least = kMost;
+    const auto cost = [&](const Vec3i& offset) {
       std::int64_t sum = 0;
-      for (const Face& face : faces) {
-        sum += energy.face(face.x, offset, face.y, face.other);
-        if (sum >= limit) break;
+      for (std::size_t n = 0; n < faces.size(); ++n) {
+        sum += energy.face(faces[n].x, offset, faces[n].y, faces[n].other);
+        if (n % 64 == 0 && sum > least.load(std::memory_order_relaxed)) return kMost;
+      }
+      std::int64_t before = least.load(std::memory_order_relaxed);
+      while (sum < before && !least.compare_exchange_weak(before, sum)) {
       }
       return sum;
     };
-    Vec3i best = piece.offset;
-    std::int64_t least = cost(best, std::numeric_limits<std::int64_t>::max());
-    for (int n = 0; n < candidates; ++n) {
-      const Vec3i offset = piece.offset + Vec3i{n % side, n / side % side, n / side / side} -
-                           Vec3i{reach, reach, reach};
-      if (!example.contains(low + offset) || !example.contains(high + offset)) continue;
-      if ((options.usable || options.air) &&
-          !std::all_of(piece.samples.begin(), piece.samples.end(),
-                       [&](const Vec3i& x) { return energy.possible(x, offset); })) {
-        continue;
+    const auto offsetOf = [&](int n) {
+      return piece.offset + Vec3i{n % side, n / side % side, n / side / side} -
+             Vec3i{reach, reach, reach};
+    };
+    const std::int64_t present = cost(piece.offset);
+    const std::size_t grain = std::max<std::size_t>(1, 4096 / (faces.size() + 1));
+    parallelFor(0, costs.size(), grain, [&](std::size_t from, std::size_t to) {
+      for (std::size_t n = from; n < to; ++n) {
+        const Vec3i offset = offsetOf(static_cast<int>(n));
+        costs[n] = kMost;
+        if (!example.contains(piece.low + offset) || !example.contains(piece.high + offset)) {
+          continue;
+        }
+        if ((options.usable || options.air) &&
+            anyOf([&](const Vec3i& x) { return !energy.possible(x, offset); })) {
+          continue;
+        }
+        costs[n] = cost(offset);
       }
-      const std::int64_t sum = cost(offset, least);
-      if (sum >= least) continue;
-      least = sum;
-      best = offset;
-    }
-    if (best == piece.offset) continue;
+    });
+    const auto best = std::min_element(costs.begin(), costs.end());
+    if (*best >= present) continue;
     ++moved;
-    for (const Vec3i& x : piece.samples) origins[x] = Origin(x + best);
+    const Vec3i offset = offsetOf(static_cast<int>(best - costs.begin()));
+    piece.forEachSample([&](const Vec3i& x) { origins[x] = Origin(x + offset); });
   }
   return moved;
 }
@@ -278,15 +384,14 @@ std::int64_t seamCost(const Array3D<float>& example, const Array3D<float>& targe
                       const Origins& origins, const SeamOptions& options) {
   const SeamEnergy energy(example, target, options);
   std::int64_t sum = 0;
-  for (std::size_t s = 0; s < origins.count(); ++s) {
-    const Vec3i x = origins.ijk(s);
-    const Vec3i a = origins.values()[s].cell() - x;
+  forEachCell(origins.size(), [&](const Vec3i& x) {
+    const Vec3i a = origins[x].cell() - x;
     sum += energy.sample(x, a);
     for (int direction = 0; direction < 6; direction += 2) {
-      const Vec3i y = x + kSteps[direction];
+      const Vec3i y = x + kLatticeSteps[direction];
       if (origins.contains(y)) sum += energy.face(x, a, y, origins[y].cell() - y);
     }
-  }
+  });
   return sum;
 }
 

@@ -56,9 +56,10 @@ void refineSeams(const Array3D<float>& example, const Array3D<float>& target, Or
 /// Moves whole pieces, the largest first: each to the offset within `reach` samples of its own
 /// along each axis for which its faces cost least, so that what both sides show lines up. A piece
 /// whose source would leave the example stays. Returns how many moved. The faces' sum never rises.
-/// O(seam faces x (2 reach + 1)³). Deterministic.
+/// O(samples + seam faces x (2 reach + 1)³). The same bytes at any number of threads. Throws
+/// `Cancelled`, with origins still sound.
 int alignPieces(const Array3D<float>& example, Origins& origins, int reach = 1,
-                const SeamOptions& options = {});
+                const SeamOptions& options = {}, const Progress& progress = {});
 
 /// The sum that `refineSeams` lowers, in millionths of a unit: over all faces and samples.
 std::int64_t seamCost(const Array3D<float>& example, const Array3D<float>& target,

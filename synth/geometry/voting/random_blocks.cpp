@@ -12,6 +12,8 @@
 namespace exemplar {
 namespace {
 
+// What these constants trade and what chose them: docs/synthesis.md, "Constants".
+
 /// Samples along the longest side of the coarsest level, about.
 constexpr int kCoarsestSide = 16;
 /// How often a block that may not be copied is drawn again; the second half of times from anywhere.
