@@ -66,7 +66,9 @@ DistanceField sampleMeshResult(const TriangleMesh& result, const DistanceField& 
   if (example.values.empty())
     throw InputError("the example has no samples; give a field with at least one");
   const Box3d bounds = boundingBox(result);
-  if (bounds.empty()) throw InputError("the result has no triangles: there is nothing to measure");
+  if (bounds.empty())
+    throw InputError(
+        "the result has no triangles, so nothing can be measured; give a mesh with at least one");
   const Box3d content = inVoxels(bounds, example);
   Vec3d first{}, size{};  // voxels
   if (options.size) {

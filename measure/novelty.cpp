@@ -183,8 +183,8 @@ double copyDistance(const Occupancy& example, const Occupancy& result,
 void requireOriginsFit(const Origins& origins, const DistanceField& example,
                        const DistanceField& result, int exampleIndex) {
   if (origins.size() != result.size())
-    throw InputError("there are " + text(origins.size()) + " origins for a result of " +
-                     text(result.size()) + " samples; give one for each sample");
+    throw InputError("the result has " + text(result.size()) + " samples and " +
+                     text(origins.size()) + " origins; give one origin for each sample");
   for (const Origin& o : origins.values())
     if (o.example == exampleIndex && !example.values.contains(o.cell()))
       throw InputError("the origins name sample (" + std::to_string(o.i) + ", " +

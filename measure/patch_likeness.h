@@ -60,7 +60,7 @@ struct PatchLikeness {
 /// `asked`, which is as far as a window's core can touch the box. So a copy of the example moved
 /// anywhere within empty surroundings scores 1; at stride 5 the same copy scores little.
 ///
-/// Windows there are none of: where `asked` has no surface window its share is 1 if `reference` has
+/// Without windows: where `asked` has no surface window its share is 1 if `reference` has
 /// none either and 0 otherwise (an empty result is not alike); where only `reference` has none, 0.
 ///
 /// Exact. A pair is passed over when its bound, from counts of solid cells in the window and in 27

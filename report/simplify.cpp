@@ -8,13 +8,19 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "core/disjoint_sets.h"
 
 namespace exemplar {
 namespace {
 
 /// Whatever it costs in looks, as a share of the mesh's size.
 constexpr float kAnyError = 1;
+/// Parts that would be left with fewer triangles than this are not simplified one by one: they
+/// would shrink to nothing, and the surface that they make together with them.
+constexpr std::size_t kLeastOfPart = 8;
 
 /// A mesh as meshoptimizer takes it: vertices at the same place are one, and coordinates run from 0
 /// to 1 along the longest side, so that single precision serves wherever the mesh is.
@@ -50,6 +56,18 @@ Welded welded(const TriangleMesh& mesh) {
   return w;
 }
 
+/// How many parts the triangles are, connected by vertices.
+std::size_t countParts(const Welded& w) {
+  DisjointSets parts(w.positions.size());
+  std::size_t joins = 0, used = 0;
+  std::vector<char> isUsed(w.positions.size());
+  for (std::size_t i = 0; i < w.indices.size(); ++i) {
+    used += !std::exchange(isUsed[w.indices[i]], 1);
+    if (i % 3 > 0) joins += parts.join(w.indices[i - 1], w.indices[i]);
+  }
+  return used - joins;
+}
+
 /// The vertices of the mesh that are still in use, and its triangles.
 TriangleMesh compacted(const TriangleMesh& mesh, const Welded& w,
                        const std::vector<unsigned>& indices) {
@@ -76,9 +94,12 @@ TriangleMesh simplified(const TriangleMesh& mesh, std::int64_t triangles) {
   if (w.indices.size() <= most) return compacted(mesh, w, w.indices);
   const float* positions = w.positions.empty() ? nullptr : w.positions[0].data();
   constexpr std::size_t kStride = sizeof w.positions[0];
-  std::vector<unsigned> indices(w.indices.size());
-  indices.resize(meshopt_simplify(indices.data(), w.indices.data(), w.indices.size(), positions,
-                                  w.positions.size(), kStride, most, kAnyError));
+  std::vector<unsigned> indices;
+  if (3 * kLeastOfPart * countParts(w) <= most) {
+    indices.resize(w.indices.size());
+    indices.resize(meshopt_simplify(indices.data(), w.indices.data(), w.indices.size(), positions,
+                                    w.positions.size(), kStride, most, kAnyError));
+  }
   if (indices.size() > most || indices.empty()) {
     indices.resize(w.indices.size());
     indices.resize(meshopt_simplifySloppy(indices.data(), w.indices.data(), w.indices.size(),

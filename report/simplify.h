@@ -14,9 +14,9 @@ namespace exemplar {
 ///
 /// Edges are collapsed by quadric errors (Garland and Heckbert, "Surface simplification using
 /// quadric error metrics", 1997) as meshoptimizer does it, once vertices at the same place have
-/// been joined. What resists (a soup whose triangles share nothing) is simplified by
-/// meshoptimizer's grid of cells, each of which keeps one vertex. About a second a million
-/// triangles, by one thread; deterministic.
+/// been joined. A mesh of so many parts that few triangles would be left to each (a soup whose
+/// triangles share nothing) is simplified by meshoptimizer's grid of cells, each of which keeps one
+/// vertex. About a second a million triangles, by one thread; deterministic.
 TriangleMesh simplified(const TriangleMesh& mesh, std::int64_t triangles);
 
 }  // namespace exemplar

@@ -266,7 +266,7 @@ class Field {
             const Vec3i around = source_.position(best.index);
             Window near{max(limits.first, around - Vec3i{radius, radius, radius}),
                         min(limits.last, around + Vec3i{radius, radius, radius})};
-            // A match outside the window (there was none inside) has no neighborhood in it.
+            // A match outside the window (none was inside) has no neighborhood in it.
             if (min(near.first, near.last) != near.first) break;
             offer(gathered, uniform(random, cell(patch), draw, near), limits, best);
           }

@@ -151,7 +151,7 @@ function wipeSection(page, board) {
 function marksSection(page) {
   const marked = page.report.runs.filter((run) => run.status === 'complete' && Array.isArray(run.marks));
   const text = 'The places where a result shows most plainly that it was put together: seams at the surface that jump most, parts of the example that occur in the result at least twice as often as the average, and the largest parts copied as they are.';
-  if (!marked.length) return section('marks', 'What shows', null, h('p', { class: 'quiet' }, 'Marks need the result’s origins, and there are none here.'));
+  if (!marked.length) return section('marks', 'What shows', null, h('p', { class: 'quiet' }, 'Marks need the result’s origins, which this report does not have.'));
   const shown = new Set(Object.keys(kMarks)), grid = h('div', { class: 'views' });
   const draw = () => {
     grid.replaceChildren(...page.engines.map((engine) => page.run(engine, page.seed))

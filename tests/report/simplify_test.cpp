@@ -55,6 +55,26 @@ TEST(Simplified, JoinsVerticesAtOnePlace) {
   for (const Vec3d& p : coarse.positions) EXPECT_NEAR(length(p - Vec3d{5, 5, 5}), 3, 1e-9);
 }
 
+TEST(Simplified, OfASoupTheSurfaceIsLeft) {
+  // A ball whose triangles have vertices of their own, a little apart.
+  const TriangleMesh ball = makeSphere({0, 0, 0}, 1, 60);
+  TriangleMesh soup;
+  const Random random(2);
+  for (const auto& t : ball.triangles) {
+    const auto n = static_cast<std::uint32_t>(soup.positions.size());
+    for (const std::uint32_t v : t)
+      soup.positions.push_back(ball.positions[v] * random.uniform(0.9999, 1, n + v));
+    soup.triangles.push_back({n, n + 1, n + 2});
+  }
+  const TriangleMesh coarse = simplified(soup, 8000);
+  EXPECT_LE(coarse.triangles.size(), 8000u);
+  double area = 0;
+  for (std::size_t t = 0; t < coarse.triangles.size(); ++t)
+    area += length(areaNormal(coarse, t)) / 2;
+  // Not the ninth of it that 8,000 of the 72,000 triangles would be.
+  EXPECT_NEAR(area, 4 * 3.1416, 0.15 * 4 * 3.1416);
+}
+
 TEST(Simplified, TakesTrianglesThatShareNothing) {
   TriangleMesh soup;
   const Random random(1);
