@@ -338,13 +338,13 @@ class VoxReader {
       size[i] = static_cast<int>(length);
       cells *= static_cast<double>(length);
     }
-    std::size_t voxels = 0;
-    for (const Shown& part : parts) voxels += part.model->voxels.size() / 4;
+    std::size_t voxelCount = 0;
+    for (const Shown& part : parts) voxelCount += part.model->voxels.size() / 4;
     // A grid holds the empty cells too; where they are thousands to a voxel, models lie far apart.
-    if (cells > kManyCells && cells > kSparse * static_cast<double>(voxels)) {
+    if (cells > kManyCells && cells > kSparse * static_cast<double>(voxelCount)) {
       file_.fail("its models lie so far apart that " + std::to_string(size.x) + " x " +
                  std::to_string(size.y) + " x " + std::to_string(size.z) + " cells hold only " +
-                 std::to_string(voxels) + " voxels; move them closer together");
+                 std::to_string(voxelCount) + " voxels; move them closer together");
     }
     requireMemory(3 * cells, name_ + ": its cells", "put its models closer together");
 
