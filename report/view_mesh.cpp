@@ -15,7 +15,7 @@
 #include "preview/normals.h"
 #include "preview/texture.h"
 #include "reconstruct/decimate.h"
-#include "reconstruct/example_surface.h"
+#include "sdf/example_surface.h"
 #include "core/origin.h"
 #include "report/encode.h"
 #include "report/simplify_soup.h"
