@@ -251,7 +251,11 @@ DistanceField redistanceJumpsInBox(const DistanceField& field, const Progress& p
 DistanceField redistanceJumps(const DistanceField& field, const Axes& wraps,
                               const Progress& progress) {
   constexpr int kMargin = 10;  // a sample's distance depends on what lies this near
-  if (!wraps.any()) return redistanceJumpsInBox(field, progress);
+  if (!wraps.any()) {
+    DistanceField result = redistanceJumpsInBox(field, progress);
+    progress.report(kRepairing, 1);
+    return result;
+  }
   // With a margin that shows what lies at the other side.
   const Vec3i n = field.size();
   Vec3i margin{};
@@ -266,6 +270,7 @@ DistanceField redistanceJumps(const DistanceField& field, const Axes& wraps,
   around = redistanceJumpsInBox(around, progress);
   DistanceField result = field;
   parallelForEachCell(n, [&](const Vec3i& p) { result.values[p] = around.values[p + margin]; });
+  progress.report(kRepairing, 1);
   return result;
 }
 
