@@ -91,9 +91,9 @@ struct Example {
   LabelContent content;              ///< of labels
   std::optional<TriangleMesh> mesh;  ///< where materials, colors and finer detail come from
   Hints hints;
-  Axes continues;                ///< along which it goes on past its box: a volume that tiles
-  HeightMapFileOptions heights;  ///< the units of a height map, to write one alike
-  Warnings warnings;             ///< what the file holds that was left out or taken otherwise
+  Axes continues;  ///< along which it goes on past its box: a volume that tiles
+  std::optional<HeightSteps> heightSteps;  ///< of a height map, to write one alike
+  Warnings warnings;  ///< what the file holds that was left out or taken otherwise
 
   Form form() const { return static_cast<Form>(data.index()); }
   /// Throw `std::bad_variant_access` where it is of the other form.

@@ -22,7 +22,7 @@
 #include "reconstruct/pull.h"
 #include "reconstruct/smooth.h"
 #include "reconstruct/stitch.h"
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 
 namespace exemplar {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 
 namespace exemplar {
 namespace {

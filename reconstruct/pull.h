@@ -14,7 +14,7 @@
 #include "core/origin.h"
 #include "core/progress.h"
 #include "mesh/triangle_mesh.h"
-#include "reconstruct/example_surface.h"
+#include "sdf/example_surface.h"
 #include "reconstruct/transfer.h"
 #include "sdf/distance_field.h"
 

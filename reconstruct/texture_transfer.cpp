@@ -12,7 +12,7 @@
 #include "reconstruct/adjacency.h"
 #include "reconstruct/material_borders.h"
 #include "reconstruct/texture_charts.h"
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 
 namespace exemplar {
 namespace {

@@ -18,7 +18,7 @@
 #include "reconstruct/texture_charts.h"
 #include "reconstruct/texture_transfer.h"
 #include "reconstruct/triangle_sources.h"
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 
 namespace exemplar {
 namespace {

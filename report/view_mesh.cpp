@@ -16,10 +16,10 @@
 #include "mesh/color.h"
 #include "preview/normals.h"
 #include "preview/texture.h"
-#include "reconstruct/example_surface.h"
 #include "report/encode.h"
 #include "report/simplify.h"
 #include "report/subdivide.h"
+#include "sdf/example_surface.h"
 
 namespace exemplar {
 namespace {
@@ -258,9 +258,9 @@ class Sources {
 constexpr float kAlike = 0.86f;
 
 /// The corners at the vertices of a shape, as many at each as differ.
-class Corners {
+class ViewCorners {
  public:
-  explicit Corners(std::size_t vertices) : first_(vertices, kNone) {}
+  explicit ViewCorners(std::size_t vertices) : first_(vertices, kNone) {}
 
   /// The number of the corner at `vertex` that looks as `corner` does; a new one where there is
   /// none. `isNew` says which.
@@ -382,7 +382,7 @@ ViewMesh makeViewMesh(const ViewSource& source, const ViewOptions& options,
   view.ofTriangles = drawn.another ? static_cast<std::int64_t>(source.mesh.triangles.size())
                                    : static_cast<std::int64_t>(shape.triangles.size());
   const Vec3d size = view.box.size();
-  Corners corners(shape.positions.size());
+  ViewCorners corners(shape.positions.size());
   std::vector<LightProbe> probes;
   for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
     if (length(areaNormal(shape, t)) == 0) continue;

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 #include "sdf/sample_distances.h"
 
 namespace exemplar {

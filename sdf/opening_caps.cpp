@@ -8,7 +8,7 @@
 #include <span>
 
 #include "core/parallel.h"
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 
 namespace exemplar {
 namespace {

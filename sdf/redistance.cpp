@@ -15,7 +15,8 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "sdf/dilate.h"
-#include "sdf/loop_progress.h"
+#include "sdf/example_surface.h"
+#include "core/loop_progress.h"
 #include "sdf/sample_distances.h"
 
 namespace exemplar {
@@ -200,14 +201,14 @@ Array3D<std::uint8_t> samplesAtJumps(const DistanceField& field, const Progress&
 }
 
 DistanceField redistanceJumpsInBox(const DistanceField& field, const Progress& progress) {
-  constexpr int kFar = 4;  // voxels up to which distances are measured
+  constexpr double kFar = 4;  // voxels up to which distances are measured
   progress.report(kRepairing, 0);
   const Array3D<std::uint8_t> marks = samplesAtJumps(field, progress);
   if (marks.empty()) return field;
   const Vec3i n = field.size();
-  const Array3D<std::uint8_t> around = dilated(marks, kFar + 1);
+  const Array3D<std::uint8_t> around = dilated(marks, static_cast<int>(kFar) + 1);
   progress.report(kRepairing, 0.2);
-  // Layer by layer: the triangles of a jumping field are many, and their tree takes memory.
+  // Layer by layer: the triangles of a jumping field are many, and looking them up takes memory.
   constexpr int kLayers = 24;
   const std::vector<Corners> zeroTriangles = zeroSet(field.values, &around, progress);
   const Progress measuring = progress.part(0.3, 1);
@@ -215,20 +216,22 @@ DistanceField redistanceJumpsInBox(const DistanceField& field, const Progress& p
   DistanceField result = field;
   for (int low = 0; low < n.z; low += kLayers) {
     const int high = std::min(n.z, low + kLayers);
-    std::vector<Corners> triangles;
+    TriangleMesh surface;
     for (const Corners& corners : zeroTriangles) {
       Vec3i cell;
       for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::floor(corners[0][a]));
       cell = around.clamped(cell);
       if (!around[cell] || cell.z < low - kFar - 2 || cell.z > high + kFar + 2) continue;
-      triangles.push_back(corners);
+      const auto first = static_cast<std::uint32_t>(surface.positions.size());
+      surface.positions.insert(surface.positions.end(), corners.begin(), corners.end());
+      surface.triangles.push_back({first, first + 1, first + 2});
     }
-    const TriangleTree zero(std::move(triangles), measuring);
+    const ExampleSurface zero(surface, measuring);
     const auto measureRow = [&](int j, int k) {
-      std::uint32_t near = TriangleTree::kNone;
       for (int i = 0; i < n.x; ++i) {
         if (!marks(i, j, k)) continue;
-        const double distance = zero.distance({double(i), double(j), double(k)}, kFar, near);
+        const auto nearest = zero.closest({double(i), double(j), double(k)}, {.radius = kFar});
+        const double distance = nearest ? nearest->distance : kFar;
         result.values(i, j, k) = signedAs(field.values(i, j, k), distance * field.voxelSize);
       }
     };
@@ -248,7 +251,11 @@ DistanceField redistanceJumpsInBox(const DistanceField& field, const Progress& p
 DistanceField redistanceJumps(const DistanceField& field, const Axes& wraps,
                               const Progress& progress) {
   constexpr int kMargin = 10;  // a sample's distance depends on what lies this near
-  if (!wraps.any()) return redistanceJumpsInBox(field, progress);
+  if (!wraps.any()) {
+    DistanceField result = redistanceJumpsInBox(field, progress);
+    progress.report(kRepairing, 1);
+    return result;
+  }
   // With a margin that shows what lies at the other side.
   const Vec3i n = field.size();
   Vec3i margin{};
@@ -263,6 +270,7 @@ DistanceField redistanceJumps(const DistanceField& field, const Axes& wraps,
   around = redistanceJumpsInBox(around, progress);
   DistanceField result = field;
   parallelForEachCell(n, [&](const Vec3i& p) { result.values[p] = around.values[p + margin]; });
+  progress.report(kRepairing, 1);
   return result;
 }
 

@@ -8,7 +8,7 @@
 #include "core/array3d.h"
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 #include "sdf/triangle_tree.h"
 
 namespace exemplar {

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 #include "sdf/triangle_overlap.h"
 
 namespace exemplar {

@@ -6,7 +6,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -20,6 +19,7 @@ constexpr std::uint32_t kLeafTriangles = 4;
 constexpr std::uint32_t kParallelTriangles = 4096;
 // How many times its radius a cluster must be away for its expansion to replace it.
 constexpr double kFar = 2.3;
+constexpr std::size_t kMaxDepth = 64;
 
 Vec3d centroid(const Corners& t) { return (t[0] + t[1] + t[2]) / 3.0; }
 Vec3d areaVector(const Corners& t) { return cross(t[1] - t[0], t[2] - t[0]) * 0.5; }
@@ -35,31 +35,43 @@ std::pair<std::uint32_t, std::uint32_t> leafCounts(std::uint32_t m) {
 }
 std::uint32_t leafCount(std::uint32_t n) { return leafCounts(n).first; }
 
+double squaredBoxDistance(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
+  const Vec3d d = max(max(low - p, p - high), Vec3d{0, 0, 0});
+  return dot(d, d);
+}
+
 }  // namespace
 
-TriangleTree::TriangleTree(std::vector<Corners> triangles, const Progress& progress,
-                           Answers answers)
+// What building needs besides the tree.
+struct TriangleTree::Build {
+  std::vector<Vec3d> centroids;
+  Progress progress;
+};
+
+TriangleTree::TriangleTree(std::vector<Corners> triangles, const Progress& progress)
     : triangles_(std::move(triangles)) {
   const auto n = static_cast<std::uint32_t>(triangles_.size());
   if (n == 0) return;
+  Build with{std::vector<Vec3d>(n), progress};
   order_.resize(n);
-  for (std::uint32_t t = 0; t < n; ++t) order_[t] = t;
+  for (std::uint32_t t = 0; t < n; ++t) {
+    order_[t] = t;
+    with.centroids[t] = centroid(triangles_[t]);
+  }
   leaves_.resize(n);
   nodes_.resize(2 * static_cast<std::size_t>(leafCount(n)) - 1);
-  if (answers == Answers::All) {
-    moments_.resize(nodes_.size());
-    discs_.resize(nodes_.size());
-  }
-  build(0, 0, n, progress);
+  moments_.resize(nodes_.size());
+  discs_.resize(nodes_.size());
+  build(with, 0, 0, n);
 }
 
 TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
 TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
 TriangleTree::~TriangleTree() = default;
 
-void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count,
-                         const Progress& progress) {
-  progress.check();
+void TriangleTree::build(const Build& with, std::uint32_t node, std::uint32_t first,
+                         std::uint32_t count) {
+  with.progress.check();
   Node& n = nodes_[node];
   n.first = first;
   n.count = count;
@@ -78,7 +90,7 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
   }
   Vec3d low = Vec3d{1, 1, 1} * std::numeric_limits<double>::infinity(), high = -low;
   for (std::uint32_t i = first; i < first + count; ++i) {
-    const Vec3d c = centroid(triangles_[order_[i]]);
+    const Vec3d& c = with.centroids[order_[i]];
     low = min(low, c);
     high = max(high, c);
   }
@@ -87,14 +99,14 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
   const auto begin = order_.begin() + first;
   // The index makes the order total, so that the same triangles always give the same tree.
   std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-    const double ca = centroid(triangles_[a])[axis], cb = centroid(triangles_[b])[axis];
+    const double ca = with.centroids[a][axis], cb = with.centroids[b][axis];
     return ca != cb ? ca < cb : a < b;
   });
   const std::uint32_t half = count / 2;
   const std::uint32_t left = node + 1, right = node + 2 * leafCount(half);
   n.right = right;
-  const auto buildLeft = [&] { build(left, first, half, progress); };
-  const auto buildRight = [&] { build(right, first + half, count - half, progress); };
+  const auto buildLeft = [&] { build(with, left, first, half); };
+  const auto buildRight = [&] { build(with, right, first + half, count - half); };
   if (count >= kParallelTriangles) {
     tbb::parallel_invoke(buildLeft, buildRight);
   } else {
@@ -107,7 +119,6 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
 }
 
 void TriangleTree::setMoments(std::uint32_t node) {
-  if (moments_.empty()) return;
   const Node& n = nodes_[node];
   ClusterMoments& m = moments_[node];
   Vec3d weighted{};
@@ -205,18 +216,34 @@ double TriangleTree::distance(const Vec3d& p, double limit, std::uint32_t& near)
       best = near;
     }
   }
-  assert(!discs_.empty());
-  const auto bound = [&](std::uint32_t node, double enough) {
-    return squaredBound(p, node, enough);
-  };
-  visitNearLeaves(best2, bound, [&](std::uint32_t i, double) {
-    const double d2 = squaredDistance(p, leaves_[i]);
-    if (d2 < best2) {
-      best2 = d2;
-      best = order_[i];
+  std::array<std::pair<std::uint32_t, double>, kMaxDepth> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {0, squaredBound(p, 0, best2)};
+  while (depth > 0) {
+    const auto [node, bound2] = stack[--depth];
+    if (bound2 >= best2) continue;
+    const Node& n = nodes_[node];
+    if (n.right == 0) {
+      for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+        const double d2 = squaredDistance(p, leaves_[i]);
+        if (d2 < best2) {
+          best2 = d2;
+          best = order_[i];
+        }
+      }
+      continue;
     }
-    return best2;
-  });
+    const double left2 = squaredBound(p, node + 1, best2);
+    const double right2 = squaredBound(p, n.right, best2);
+    // The nearer child last, so that it comes off the stack first.
+    if (left2 <= right2) {
+      if (right2 < best2) stack[depth++] = {n.right, right2};
+      if (left2 < best2) stack[depth++] = {node + 1, left2};
+    } else {
+      if (left2 < best2) stack[depth++] = {node + 1, left2};
+      if (right2 < best2) stack[depth++] = {n.right, right2};
+    }
+  }
   near = best;
   return best == kNone ? limit : std::sqrt(best2);
 }
@@ -232,7 +259,6 @@ void TriangleTree::windingNumbers(std::span<const Vec3d> points, std::span<doubl
     std::fill(result.begin(), result.end(), 0.0);
     return;
   }
-  assert(!moments_.empty());
   for (std::size_t begin = 0; begin < points.size(); begin += WindingLanes::kMost) {
     const auto some =
         points.subspan(begin, std::min<std::size_t>(WindingLanes::kMost, points.size() - begin));

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/progress.h"
@@ -20,16 +19,11 @@ struct ClusterMoments;
 
 /// A tree of boxes around triangles that answers how far the nearest one is and how often they wind
 /// around a point. Immutable, so any number of threads may ask. O(n log n) to build for n
-/// triangles, about 400 bytes a triangle; the same tree at any number of threads. Building throws
-/// `Cancelled`.
+/// triangles, about 400 bytes a triangle; the same tree at any number of threads.
 class TriangleTree {
  public:
-  /// What a tree can answer. `Near` is for `visitNear` and `visitBox` alone: it takes half the
-  /// memory and a third of the time to build.
-  enum class Answers { All, Near };
-
-  explicit TriangleTree(std::vector<Corners> triangles, const Progress& progress = {},
-                        Answers answers = Answers::All);
+  /// Throws `Cancelled`.
+  explicit TriangleTree(std::vector<Corners> triangles, const Progress& progress = {});
   TriangleTree(TriangleTree&&) noexcept;
   TriangleTree& operator=(TriangleTree&&) noexcept;
   ~TriangleTree();
@@ -46,12 +40,6 @@ class TriangleTree {
   /// nearest one.
   double distance(const Vec3d& p, double limit, std::uint32_t& near) const;
   static constexpr std::uint32_t kNone = 0xffffffff;
-
-  /// Calls `visit(t, corners, within2)` for each triangle t that may be nearer to `p` than the
-  /// square root of `within2`, nearer parts of the tree first; it returns the squared distance
-  /// within which the search continues, at most `within2`. For costs other than the distance alone.
-  template <class Visit>
-  void visitNear(const Vec3d& p, double within2, const Visit& visit) const;
 
   /// The generalized winding number of the triangles around `p`: for closed surfaces that wind
   /// anticlockwise seen from outside 1 inside and 0 outside, the sum over overlapping ones, and
@@ -86,19 +74,9 @@ class TriangleTree {
     double radius = 0, halfHeight = 0;
   };
 
-  static constexpr std::size_t kMaxDepth = 64;
-
-  static double squaredBoxDistance(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
-    const Vec3d d = max(max(low - p, p - high), Vec3d{0, 0, 0});
-    return dot(d, d);
-  }
   double squaredBound(const Vec3d& p, std::uint32_t node, double enough) const;
-  // Calls visit(i, within2) for places in `leaves_`; bound(node, within2) is below the squared
-  // distance of a node's triangles.
-  template <class Bound, class Visit>
-  void visitNearLeaves(double within2, const Bound& bound, const Visit& visit) const;
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count,
-             const Progress& progress);
+  struct Build;
+  void build(const Build& with, std::uint32_t node, std::uint32_t first, std::uint32_t count);
   void setMoments(std::uint32_t node);
 
   std::vector<Corners> triangles_;
@@ -108,42 +86,5 @@ class TriangleTree {
   std::vector<Disc> discs_;
   std::vector<ClusterMoments> moments_;
 };
-
-template <class Bound, class Visit>
-void TriangleTree::visitNearLeaves(double within2, const Bound& bound, const Visit& visit) const {
-  if (nodes_.empty()) return;
-  std::array<std::pair<std::uint32_t, double>, kMaxDepth> stack;
-  std::size_t depth = 0;
-  stack[depth++] = {0, bound(0, within2)};
-  while (depth > 0) {
-    const auto [node, bound2] = stack[--depth];
-    if (bound2 >= within2) continue;
-    const Node& n = nodes_[node];
-    if (n.right == 0) {
-      for (std::uint32_t i = n.first; i < n.first + n.count; ++i) within2 = visit(i, within2);
-      continue;
-    }
-    const double left2 = bound(node + 1, within2);
-    const double right2 = bound(n.right, within2);
-    // The nearer child last, so that it comes off the stack first.
-    if (left2 <= right2) {
-      if (right2 < within2) stack[depth++] = {n.right, right2};
-      if (left2 < within2) stack[depth++] = {node + 1, left2};
-    } else {
-      if (left2 < within2) stack[depth++] = {node + 1, left2};
-      if (right2 < within2) stack[depth++] = {n.right, right2};
-    }
-  }
-}
-
-template <class Visit>
-void TriangleTree::visitNear(const Vec3d& p, double within2, const Visit& visit) const {
-  const auto bound = [&](std::uint32_t node, double) {
-    return squaredBoxDistance(p, nodes_[node].low, nodes_[node].high);
-  };
-  visitNearLeaves(within2, bound, [&](std::uint32_t i, double limit2) {
-    return visit(order_[i], leaves_[i], limit2);
-  });
-}
 
 }  // namespace exemplar

@@ -17,7 +17,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 #include "sdf/openvdb_ready.h"
 #include "sdf/redistance.h"
 #include "sdf/vdb_grids.h"

@@ -557,7 +557,7 @@ TEST(HeightMapToSdf, RefusesOptionsAndMapsThatMakeNoSense) {
   EXPECT_THAT(error({.resolution = 0}), HasSubstr("resolution"));
   EXPECT_THAT(error({.resolution = 100000}), HasSubstr("1..4096"));
   EXPECT_THAT(error({.voxelSize = -1}), HasSubstr("voxelSize"));
-  EXPECT_THAT(error({.voxelSize = 1e-9}), HasSubstr("lower resolution"));
+  EXPECT_THAT(error({.voxelSize = 1e-9}), HasSubstr("lower `resolution`"));
   EXPECT_THAT(error({.air = -1}), HasSubstr("air"));
   EXPECT_THAT(error({.halfWidth = 0}), HasSubstr("halfWidth"));
   EXPECT_THAT(inputError([] { heightMapToSdf({}); }), HasSubstr("2 x 2"));

@@ -1,7 +1,7 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include "sdf/loop_progress.h"
+#include "core/loop_progress.h"
 
 #include <gtest/gtest.h>
 

@@ -181,9 +181,9 @@ TEST(Redistance, ReportsItsProgressAndStopsWhereItIsCancelled) {
   expectReportsAndStops([&](const Progress& progress) { redistance(field, {}, progress); }, 10);
 }
 
-// A ball whose halves are a voxel and a half apart, and the shape that each half has.
+// A ball whose halves are three voxels apart, and the shape that each half has.
 struct SteppedBall {
-  Shape left = test::sphere({0, 0, 0}, 0.6), right = test::sphere({0, 0.1, 0}, 0.6);
+  Shape left = test::sphere({0, 0, 0}, 0.6), right = test::sphere({0, 0.2, 0}, 0.6);
   DistanceField field =
       test::sampled([this](const Vec3d& p) { return p.x < 0 ? left(p) : right(p); }, {30, 30, 30},
                     2.0 / 30, Vec3d{-1, -1, -1} + Vec3d{1, 1, 1} / 30, 10);
@@ -214,7 +214,7 @@ TEST(RedistanceJumps, MeasuresToTheZeroSet) {
   for (std::size_t s = 0; s < jumps.values.count(); ++s) {
     const float v = jumps.values.values()[s];
     if (v == ball.field.values.values()[s]) continue;
-    EXPECT_EQ(v, whole.values.values()[s]);
+    EXPECT_FLOAT_EQ(v, whole.values.values()[s]);
   }
 }
 

@@ -243,7 +243,7 @@ TEST(SampleDistances, AreThoseOfTheSamplesUpToTheLimit) {
 TEST(ForBlocks, CoversEachSampleOnceAndSerpentinesStepByStep) {
   for (const int side : {1, 4, 8}) {
     Array3D<int> seen({13, 9, 17});
-    forBlocks(seen.size(), side, [&](const Vec3i& low, const Vec3i& high) {
+    forBlocks(seen.size(), side, {}, "", [&](const Vec3i& low, const Vec3i& high) {
       Vec3i before = low - Vec3i{1, 0, 0};
       serpentine(low, high, [&](const Vec3i& ijk) {
         const Vec3i step = ijk - before;

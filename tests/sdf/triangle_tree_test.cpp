@@ -195,32 +195,6 @@ TEST(TriangleTree, KeepsManyTrianglesAtOnePlaceApart) {
   EXPECT_DOUBLE_EQ(tree.distance({0.2, 0.2, 3}, kInfinity), 3);
 }
 
-TEST(TriangleTree, VisitsWhateverMayBeNear) {
-  const auto triangles = randomTriangles(300, 8);
-  for (const TriangleTree::Answers answers :
-       {TriangleTree::Answers::All, TriangleTree::Answers::Near}) {
-    const TriangleTree tree(triangles, {}, answers);
-    for (int trial = 0; trial < 100; ++trial) {
-      const Vec3d p = randomPoint(trial);
-      std::vector<std::uint8_t> visited(triangles.size());
-      constexpr double kWithin2 = 0.04;
-      tree.visitNear(p, kWithin2, [&](std::uint32_t t, const Corners& corners, double within2) {
-        EXPECT_EQ(corners, triangles[t]);
-        ++visited[t];
-        return within2;
-      });
-      std::size_t far = 0;
-      for (std::size_t t = 0; t < triangles.size(); ++t) {
-        if (squaredDistance(p, triangles[t]) < kWithin2) {
-          EXPECT_EQ(visited[t], 1) << t;
-        }
-        far += visited[t] == 0;
-      }
-      EXPECT_GT(far, 0u);
-    }
-  }
-}
-
 TEST(TriangleTree, StopsBuildingWhereItIsCancelled) {
   const std::atomic<bool> cancel = true;
   EXPECT_THROW(TriangleTree(randomTriangles(20, 1), Progress({}, &cancel)), Cancelled);

@@ -1,7 +1,7 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include "reconstruct/example_surface.h"
+#include "sdf/example_surface.h"
 
 #include <gtest/gtest.h>
 
