@@ -15,7 +15,8 @@ Measures measure(const DistanceField& example, const DistanceField& result,
   m.seams =
       measureSeams(example, result, input.origins, options.exampleIndex, progress.part(0.7, 0.8));
   progress.report("checking the mesh", 0.8);
-  if (input.mesh) m.mesh = meshHealth(*input.mesh, {.selfIntersections = true});
+  if (input.mesh)
+    m.mesh = meshHealth(*input.mesh, {.selfIntersections = true}, progress.part(0.8, 1));
 
   const Likeness& l = m.likeness;
   m.signs = {.exampleOccupancy = l.exampleOccupancy,
