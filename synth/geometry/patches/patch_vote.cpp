@@ -54,8 +54,8 @@ NearestNeighborField fieldOf(const PyramidLevel& level, const PyramidSources& so
   return field;
 }
 
-Array3D<float> vote(const PyramidLevel& level, const NearestNeighborField& field,
-                    const Vec3i& size) {
+Array3D<float> vote(const PyramidLevel& level, const NearestNeighborField& field, const Vec3i& size,
+                    const Progress& progress) {
   Array3D<float> target(size);
   const auto gx = gaussian(level.patch.x), gy = gaussian(level.patch.y),
              gz = gaussian(level.patch.z);
@@ -64,6 +64,7 @@ Array3D<float> vote(const PyramidLevel& level, const NearestNeighborField& field
   parallelFor(0, rows, 16, [&](std::size_t begin, std::size_t end) {
     std::vector<float> sum(size.x), weight(size.x);
     for (std::size_t row = begin; row < end; ++row) {
+      progress.check();
       const int j = static_cast<int>(row % size.y), k = static_cast<int>(row / size.y);
       std::fill(sum.begin(), sum.end(), 0.0f);
       std::fill(weight.begin(), weight.end(), 0.0f);
@@ -93,7 +94,8 @@ Array3D<float> vote(const PyramidLevel& level, const NearestNeighborField& field
 }
 
 PyramidSources plurality(const PyramidLevel& level, const NearestNeighborField& field,
-                         const Vec3i& size, const Array3D<std::uint8_t>* where) {
+                         const Vec3i& size, const Array3D<std::uint8_t>* where,
+                         const Progress& progress) {
   PyramidSources sources(size);
   const auto gx = gaussian(level.patch.x), gy = gaussian(level.patch.y),
              gz = gaussian(level.patch.z);
@@ -102,6 +104,7 @@ PyramidSources plurality(const PyramidLevel& level, const NearestNeighborField& 
   parallelFor(0, rows, 16, [&](std::size_t begin, std::size_t end) {
     std::vector<std::pair<Vec3i, float>> votes;
     for (std::size_t row = begin; row < end; ++row) {
+      progress.check();
       const int j = static_cast<int>(row % size.y), k = static_cast<int>(row / size.y);
       const Covering cy = covering(j, level.patch.y, field.stride.y, n.y);
       const Covering cz = covering(k, level.patch.z, field.stride.z, n.z);

@@ -106,11 +106,11 @@ std::int64_t repairSeams(const PyramidLevel& level, const SeamRepairOptions& opt
                                  progress.part(round / static_cast<double>(options.rounds),
                                                (round + 1) / static_cast<double>(options.rounds)));
     progress.check();
-    target = vote(level, field, size);
+    target = vote(level, field, size, progress);
     pinTarget(level, options.truncation, target);
   }
   const Array3D<std::uint8_t> changed = samplesCovered(wanted, level.patch, search.stride, size);
-  const PyramidSources found = plurality(level, field, size, &changed);
+  const PyramidSources found = plurality(level, field, size, &changed, progress);
   for (std::size_t s = 0; s < sources.count(); ++s) {
     if (changed.values()[s]) sources.values()[s] = found.values()[s];
   }

@@ -90,11 +90,11 @@ class Halves {
   bool possible() const { return !axes_.empty(); }
 
   /// What to try, one after the other.
-  std::vector<std::vector<Exchange>> plans() const {
+  std::vector<std::vector<Exchange>> plans(const Progress& progress) const {
     std::vector<Exchange> fitting;
     std::vector<double> costs;
     for (const int axis : axes_) {
-      const auto [exchange, cost] = fitted(axis);
+      const auto [exchange, cost] = fitted(axis, progress);
       fitting.push_back(exchange);
       costs.push_back(cost);
     }
@@ -134,7 +134,7 @@ class Halves {
  private:
   /// Across an axis, the overlap and the lifts with which halves fit best, and what they cost: the
   /// shares of the example's and of the result's surface that are whole no more.
-  std::pair<Exchange, double> fitted(int axis) const {
+  std::pair<Exchange, double> fitted(int axis, const Progress& progress) const {
     const double n = level_.source.parts[0].size()[axis];
     const bool lifts = axis != 2 && room_.up + room_.down > 0;
     const int most = lifts ? room_.up + room_.down : 0;
@@ -143,6 +143,7 @@ class Halves {
     double least = 0;
     int rise = 0;
     for (int overlap = narrowest; overlap * kMostOverlap <= n; ++overlap) {
+      progress.check();
       for (int r = 0; r <= 2 * most; ++r) {
         const int lift = r % 2 ? -(r + 1) / 2 : r / 2;  // what is near to none first
         // Windows that lean over the result's faces and, of the example, what the overlap leaves
@@ -225,7 +226,7 @@ PyramidSources exchangedHalves(const PyramidLevel& level, const HalvesOptions& o
   if (!halves.possible()) return {};
   PyramidSources farthest;
   double most = -1;
-  const std::vector<std::vector<Exchange>> plans = halves.plans();
+  const std::vector<std::vector<Exchange>> plans = halves.plans(progress);
   for (std::size_t n = 0; n < plans.size(); ++n) {
     // Each plan is as likely as not the last: it gets half of what is left to report.
     const int before = static_cast<int>(n);

@@ -145,7 +145,7 @@ void LatticeCut::adopt(int orphaned) {
   node.tree = kFree;
 }
 
-void LatticeCut::solve() {
+void LatticeCut::solve(const Progress& progress) {
   for (int n = 0; n < static_cast<int>(nodes_.size()); ++n) {
     Node& node = nodes_[n];
     if (node.terminal == 0) continue;
@@ -154,7 +154,9 @@ void LatticeCut::solve() {
     node.distance = 1;
     activate(n);
   }
-  while (!active_.empty()) {
+  constexpr std::uint32_t kChecked = 1 << 14;  // steps between checks
+  for (std::uint32_t step = 0; !active_.empty(); ++step) {
+    if (step % kChecked == 0) progress.check();
     const int n = active_.front();
     if (nodes_[n].tree == kFree) {
       active_.pop_front();

@@ -8,6 +8,7 @@
 #include <deque>
 #include <vector>
 
+#include "core/progress.h"
 #include "core/vec.h"
 
 namespace exemplar {
@@ -40,8 +41,8 @@ class LatticeCut {
   /// `b` on the second, `reverse` >= 0 the other way round. Once a pair.
   void connect(int a, int b, int direction, std::int64_t cost, std::int64_t reverse);
 
-  /// Finds the cut. Once.
-  void solve();
+  /// Finds the cut. Once. Throws `Cancelled`.
+  void solve(const Progress& progress = {});
 
   /// After `solve`: whether the node is on the second side. Of several least cuts it is the one
   /// with the fewest nodes there.

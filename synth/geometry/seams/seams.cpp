@@ -166,7 +166,8 @@ void findNodes(const Piece& piece, const CellBox& box, const Origins& origins,
 }
 
 /// One expansion move.
-void expand(const Piece& piece, const SeamEnergy& energy, int reach, Origins& origins) {
+void expand(const Piece& piece, const SeamEnergy& energy, int reach, Origins& origins,
+            const Progress& progress) {
   const CellBox box = surroundings(piece, reach, origins.size());
   std::vector<Vec3i> nodes;
   Array3D<std::int32_t> number;
@@ -217,7 +218,7 @@ void expand(const Piece& piece, const SeamEnergy& energy, int reach, Origins& or
     }
     cut.addTerminal(static_cast<int>(n), cost.own);
   }
-  cut.solve();
+  cut.solve(progress);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (cut.onSecondSide(static_cast<int>(n))) origins[nodes[n]] = Origin(nodes[n] + piece.offset);
   }
@@ -300,7 +301,7 @@ void refineSeams(const Array3D<float>& example, const Array3D<float>& target, Or
     std::size_t done = 0;
     inOrder(boxes, [&](std::uint32_t n) {
       passing.check();
-      expand(pieces[n], energy, options.reach, origins);
+      expand(pieces[n], energy, options.reach, origins, passing);
       const std::lock_guard lock(reporting);
       ++done;
       passing.report("cutting seams",

@@ -248,10 +248,10 @@ class Voting {
                                    both.part(complete ? 0.5 : 0, 1));
       progress.check();
       matches_ += volume(field.position.size());
-      target_ = vote(level_, field, level_.target.framed());
+      target_ = vote(level_, field, level_.target.framed(), progress);
       pinTarget(level_, air_, target_);
     }
-    sources_ = plurality(level_, field, level_.target.framed());
+    sources_ = plurality(level_, field, level_.target.framed(), nullptr, progress);
     pinSources(level_, sources_);
     if (l > 0) cutSeams(level_, target_, sources_, progress.part(0.8, 1));
   }
