@@ -10,16 +10,16 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/origin.h"
 #include "core/parallel.h"
 #include "mesh/color.h"
 #include "preview/normals.h"
 #include "preview/texture.h"
 #include "reconstruct/decimate.h"
-#include "sdf/example_surface.h"
-#include "core/origin.h"
 #include "report/encode.h"
 #include "report/simplify_soup.h"
 #include "report/subdivide.h"
+#include "sdf/example_surface.h"
 
 namespace exemplar {
 namespace {
