@@ -12,7 +12,7 @@
 
 namespace exemplar {
 
-/// A dense box of samples, x fastest: sample `ijk` stands at `(k * size.y + j) * size.x + i`.
+/// A dense box of samples, x fastest: sample `ijk` is at `(k * size.y + j) * size.x + i`.
 template <class T>
 class Array3D {
  public:

@@ -28,7 +28,7 @@ inline constexpr double kLikenessThreshold = 0.95;
 
 // Broken pieces.
 
-/// Contacts thinner than this do not join two bodies, voxels: pieces are told apart this far below
+/// Contacts thinner than this do not join two bodies, voxels: pieces are separated this far below
 /// the surface where they would otherwise be one.
 inline constexpr double kContactDepth = 0.5;
 /// The share of an example's solid that must lie in whole pieces for them to be the measure of what

@@ -10,7 +10,7 @@
 
 #include "core/vec.h"
 
-/// What settings' values are made of, and what people are told.
+/// What settings' values are made of, and what people read.
 namespace exemplar {
 
 /// "a:b::c" by ':' is "a", "b", "", "c".

@@ -96,7 +96,7 @@ class ObjReader {
   }
 
   /// Vertex colors to linear ones. Whole files count either to 1 or to 255 (or 65535), and only a
-  /// component above 1 tells which; a few writers count only the alpha to 1.
+  /// component above 1 decides which; a few writers count only the alpha to 1.
   void resolveColors() {
     if (colors_.empty()) return;
     double most = 0, mostAlpha = 0;
@@ -273,7 +273,7 @@ class ObjReader {
     return true;
   }
 
-  /// Names with a comment behind them, which only the libraries can tell from names with blanks.
+  /// Names with a comment behind them, which only the libraries can distinguish from names with blanks.
   void dropComments() {
     std::set<std::string> known;
     for (const MtlMaterial& m : library_) known.insert(m.material.name);

@@ -215,7 +215,7 @@ class OffReader {
   }
 
   /// Whether colors are in 0..255: whole files use one or the other, and only a component above 1
-  /// tells which. A missing component is -1.
+  /// says which. A missing component is -1.
   static double scaleOf(const std::vector<std::array<double, 4>>& colors) {
     for (const auto& color : colors) {
       for (const double c : color) {

@@ -14,9 +14,9 @@
 #include "core/origin.h"
 #include "core/progress.h"
 #include "mesh/triangle_mesh.h"
-#include "sdf/example_surface.h"
 #include "reconstruct/transfer.h"
 #include "sdf/distance_field.h"
+#include "sdf/example_surface.h"
 
 namespace exemplar {
 

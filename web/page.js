@@ -46,7 +46,7 @@ function header(page) {
 }
 
 function section(id, title, text, ...children) {
-  return h('section', { id, 'aria-labelledby': `${id}-title` }, h('h2', { id: `${id}-title` }, title),
+  return h('section', { id, 'aria-labeledby': `${id}-title` }, h('h2', { id: `${id}-title` }, title),
     text ? h('p', { class: 'intro' }, text) : null, ...children);
 }
 

@@ -63,7 +63,7 @@ TEST_F(CompareCommand, RunsEveryEngineAndSaysWhatItFound) {
 }
 
 TEST_F(CompareCommand, SaysWhyAnEngineMadeNothing) {
-  // One block along x: the example does not show what could stand beside it.
+  // One block along x: the example does not show what could be beside it.
   ASSERT_EQ(compare("--seeds 1 --engines model --resolution 16").status, 0);
   const json run = read("compare.json").at("runs")[0];
   EXPECT_NE(run.at("status"), "complete");

@@ -119,7 +119,7 @@ TEST_F(LabelCommand, TheSameSeedGivesTheSameBytesAtAnyNumberOfThreads) {
 }
 
 TEST_F(LabelCommand, WhatIsImpossibleGetsStatusThreeAndNoFile) {
-  // A ring's side lies along y here: its corner cannot stand beside it along x.
+  // A ring's side lies along y here: its corner cannot be beside it along x.
   const CommandResult result =
       run("synth rings.txt -o out.txt --size 9,9,3 --pin 4,4,0=2 --pin 5,4,0=2 --preview p.png "
           "--stats s.json");
@@ -308,7 +308,7 @@ TEST_F(LabelCommand, InfoReportsLabelsAndAdjacency) {
   EXPECT_THAT(result.out, HasSubstr("adjacency"));
   const auto json = nlohmann::json::parse(readFile(folder_ / "i.json"));
   EXPECT_EQ(json["labels_used"], 8);
-  // Eight labels: of 64 ordered pairs along x these stand side by side.
+  // Eight labels: of 64 ordered pairs along x these are neighbors.
   const Pairs pairs = pairsOf(readGrid(folder_ / "rings.txt"));
   const auto alongX = std::count_if(pairs.begin(), pairs.end(), [](auto& p) { return p[0] == 0; });
   EXPECT_DOUBLE_EQ(json["adjacency_density"]["x"], static_cast<double>(alongX) / 64);

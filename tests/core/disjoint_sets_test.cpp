@@ -13,7 +13,7 @@
 namespace exemplar {
 namespace {
 
-/// The same by relabelling everything at each join.
+/// The same by relabeling everything at each join.
 struct SlowSets {
   std::vector<std::uint32_t> least;
   void join(std::uint32_t a, std::uint32_t b) {
@@ -23,7 +23,7 @@ struct SlowSets {
   }
 };
 
-TEST(DisjointSets, AgreeWithRelabelling) {
+TEST(DisjointSets, AgreeWithRelabeling) {
   for (std::uint64_t trial = 0; trial < 50; ++trial) {
     const Random random(trial);
     const std::uint32_t count = 1 + random.below(60, 0);

@@ -36,7 +36,7 @@ constexpr Word kWords[] = {
      "-ize"},
     {"\\btells?\\b", "says, reports"},
     {"\\btold\\b", "said, specified, reported"},
-    {"\\bstands? (beside|there|in|on|at|where|side|still)\\b", "is"},
+    {"\\bstands? (beside|there|in|at|where|side|still)\\b", "is"},
     {"\\b(came|comes?) to nothing\\b", "fails"},
 };
 

@@ -68,7 +68,7 @@ TEST(Occupancy, OfADepthBeginsBelowTheSurface) {
   EXPECT_EQ(Occupancy(field, 3).solidCells(), 18);
 }
 
-// Crofton's formula with 13 directions is exact for isotropic surfaces up to the discretisation,
+// Crofton's formula with 13 directions is exact for isotropic surfaces up to the discretization,
 // whose error on a digital ball of radius r falls as 1 / r: 2 % is ample at r = 10 and more.
 TEST(SurfaceDensity, IsTheAreaOfABall) {
   for (const double r : {10.0, 15.3, 20.0}) {

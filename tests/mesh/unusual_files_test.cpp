@@ -136,7 +136,7 @@ TEST(UnusualObj, CommentsMayFollowData) {
     expectBox(r.mesh, tail);
     EXPECT_THAT(r.warnings, IsEmpty());
   }
-  // A material's name may hold '#'; only the library tells it from a comment.
+  // A material's name may hold '#'; only the library distinguishes it from a comment.
   const std::string faces = "usemtl a # the red one\n" + objFaces();
   const Read r = read(".obj", "mtllib m.mtl # materials\n" + boxVertices("v ") + faces);
   ASSERT_EQ(r.mesh.materials.size(), 1u);

@@ -19,7 +19,7 @@ namespace {
 
 const char* const kEndings[] = {".obj", ".ply", ".stl", ".off", ".glb"};
 
-/// A torus of 2 n² triangles with colours, UVs and a material.
+/// A torus of 2 n² triangles with colors, UVs and a material.
 TriangleMesh torus(std::int64_t n) {
   TriangleMesh mesh =
       makeTorus({0, 0, 0}, {0, 0, 1}, 2, 0.5, static_cast<int>(n), static_cast<int>(n));
