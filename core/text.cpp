@@ -90,6 +90,11 @@ std::optional<double> parseNumber(std::string_view word) {
   return whole(pointed);
 }
 
+std::string_view unquoted(std::string_view name) {
+  const bool quoted = name.size() >= 2 && name.front() == '"' && name.back() == '"';
+  return quoted ? name.substr(1, name.size() - 2) : name;
+}
+
 std::string counted(std::size_t count, std::string_view noun) {
   return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
 }

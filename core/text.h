@@ -20,6 +20,9 @@ std::string_view asUtf8(std::string_view bytes, std::string& decoded);
 /// none or is out of a double's range. The same in every locale.
 std::optional<double> parseNumber(std::string_view word);
 
+/// A name without the double quotes around it, where it has them.
+std::string_view unquoted(std::string_view name);
+
 /// A number of things: "1 face", "3 faces".
 std::string counted(std::size_t count, std::string_view noun);
 

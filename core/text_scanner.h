@@ -126,13 +126,7 @@ class TextScanner {
     const char* begin = cursor_ != lineEnd_ && *cursor_ == '+' ? cursor_ + 1 : cursor_;
     double value = 0;
     const auto [end, error] = std::from_chars(begin, lineEnd_, value);
-    if (error == std::errc::result_out_of_range) {
-      if (!isTiny({begin, static_cast<std::size_t>(end - begin)})) return std::nullopt;
-      value = 0;
-    } else if (error != std::errc{}) {
-      return std::nullopt;
-    }
-    if (!endsWord(end)) return *end == ',' ? tryCommaNumber(begin, end) : std::nullopt;
+    if (error != std::errc{} || !endsWord(end)) return tryOddNumber(begin, end, error);
     cursor_ = end;
     return value;
   }
@@ -184,8 +178,8 @@ class TextScanner {
   static bool isBlank(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
   bool endsWord(const char* p) const {
-    return p == lineEnd_ || isBlank(*p) || (options_.continued && *p == '\\') ||
-           (options_.comments && *p == '#');
+    if (p == lineEnd_ || isBlank(*p)) return true;
+    return (options_.continued && *p == '\\') || (options_.comments && *p == '#');
   }
 
   void takeLine() {
@@ -197,10 +191,16 @@ class TextScanner {
     }
     lineEnd_ = lineFeed_;
     next_ = lineFeed_ == end_ ? end_ : lineFeed_ + 1;
-    // A carriage return ends a line, too: alone, or (doubled by careless copying) before the LF.
-    const void* found = std::memchr(cursor_, '\r', static_cast<std::size_t>(lineFeed_ - cursor_));
-    if (!found) return;
-    const char* after = static_cast<const char*>(found);
+    if (return_ < cursor_ || !return_) {
+      const void* found = std::memchr(cursor_, '\r', static_cast<std::size_t>(end_ - cursor_));
+      return_ = found ? static_cast<const char*>(found) : end_;
+    }
+    if (return_ < lineFeed_) endLineAtReturn();
+  }
+
+  /// A carriage return ends a line, too: alone, or (doubled by careless copying) before the LF.
+  [[gnu::noinline]] void endLineAtReturn() {
+    const char* after = return_;
     lineEnd_ = after;
     while (after != lineFeed_ && *after == '\r') ++after;
     const bool withLineFeed = after == lineFeed_ && after != end_ && !returnsAlone_;
@@ -209,19 +209,37 @@ class TextScanner {
   }
 
   void skipBlanks() {
-    for (;;) {
-      while (cursor_ != lineEnd_ && isBlank(*cursor_)) ++cursor_;
-      if (cursor_ == lineEnd_) return;
-      if (options_.comments && *cursor_ == '#') {
-        cursor_ = lineEnd_;
+    while (cursor_ != lineEnd_ && isBlank(*cursor_)) ++cursor_;
+    if (cursor_ != lineEnd_ && (*cursor_ == '#' || *cursor_ == '\\')) skipMark();
+  }
+
+  /// Skips a comment, or the end of a line that is continued, where the next character begins one.
+  [[gnu::noinline]] void skipMark() {
+    do {
+      if (*cursor_ == '#') {
+        if (options_.comments) cursor_ = lineEnd_;
         return;
       }
-      if (!options_.continued || *cursor_ != '\\') return;
+      if (!options_.continued) return;
       const char* after = cursor_ + 1;
       while (after != lineEnd_ && isBlank(*after)) ++after;
       if (after != lineEnd_ || next_ == end_) return;
       takeLine();
+      while (cursor_ != lineEnd_ && isBlank(*cursor_)) ++cursor_;
+    } while (cursor_ != lineEnd_ && (*cursor_ == '#' || *cursor_ == '\\'));
+  }
+
+  /// What `tryNumber` gives where a word does not simply spell a number that a double can hold.
+  [[gnu::noinline]] std::optional<double> tryOddNumber(const char* begin, const char* end,
+                                                       std::errc error) {
+    if (error == std::errc{}) {
+      return !endsWord(end) && *end == ',' ? tryCommaNumber(begin, end) : std::nullopt;
     }
+    const bool tiny = error == std::errc::result_out_of_range && endsWord(end) &&
+                      isTiny({begin, static_cast<std::size_t>(end - begin)});
+    if (!tiny) return std::nullopt;
+    cursor_ = end;
+    return 0;
   }
 
   /// A number with a decimal comma, as programs write it whose author forgot the locale.
@@ -255,6 +273,7 @@ class TextScanner {
   const char* next_;
   const char* end_;
   const char* lineFeed_ = nullptr;  // the first one from `next_` on, as far as it is known
+  const char* return_ = nullptr;    // the same for carriage returns
   bool returnsAlone_ = false;       // carriage returns end lines by themselves
   std::string name_;
   std::int64_t line_ = 0;

@@ -472,6 +472,27 @@ class GltfReader {
     }
   }
 
+  /// A node's transform in world space, whether or not the scene shows it.
+  Transform placeOf(std::uint64_t node) {
+    if (parents_.empty()) {
+      parents_.resize(in_.count("nodes"));
+      for (std::uint64_t n = 0; n < parents_.size(); ++n) {
+        std::vector<std::uint64_t> children;
+        const std::string place = "nodes[" + std::to_string(n) + "]";
+        appendNodes(in_.element("nodes", n, place), "children", place, children);
+        for (const std::uint64_t child : children) parents_[child] = n;
+      }
+    }
+    Transform transform;
+    std::optional<std::uint64_t> at = node;
+    for (std::size_t steps = 0; at && !placed_[*at]; at = parents_[*at]) {
+      const std::string place = "nodes[" + std::to_string(*at) + "]";
+      if (++steps > parents_.size()) in_.fail(place + " is its own parent");
+      transform = transformOf(in_.element("nodes", *at, place), place) * transform;
+    }
+    return at ? *placed_[*at] * transform : transform;
+  }
+
   /// What a skin's joints do to vertices: where a joint is now, after undoing where it was when the
   /// skin was bound to it.
   std::vector<Transform> jointTransforms(std::uint64_t skin) {
@@ -489,11 +510,7 @@ class GltfReader {
     }
     std::vector<Transform> transforms;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      if (!placed_[joints[i]]) {
-        in_.fail(place + " names nodes[" + std::to_string(joints[i]) +
-                 "], which is not in the scene");
-      }
-      transforms.push_back(*placed_[joints[i]]);
+      transforms.push_back(placeOf(joints[i]));
       if (inverse.empty()) continue;
       const double* m = &inverse[16 * i];
       transforms.back() = transforms.back() * Transform{{m[0], m[1], m[2]},
@@ -659,7 +676,8 @@ class GltfReader {
   std::vector<Instance> instances_;
   /// By mesh, whether a skin moves it, and its weights.
   std::map<std::tuple<std::uint64_t, bool, std::vector<double>>, DecodedMesh> meshes_;
-  std::vector<std::optional<Transform>> placed_;  // the nodes of the scene in world space
+  std::vector<std::optional<Transform>> placed_;       // the nodes of the scene in world space
+  std::vector<std::optional<std::uint64_t>> parents_;  // of all nodes; empty until asked for
 };
 
 }  // namespace

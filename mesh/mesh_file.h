@@ -39,27 +39,32 @@ bool isMeshFile(const std::filesystem::path& path);
 /// Reads a triangle mesh; polygons are cut into triangles, concave ones along diagonals inside
 /// them. The result passes `validate`.
 ///
-/// `.obj`: materials and base-color textures from its `.mtl` (a missing `.mtl` is no error: the
-/// materials keep their names; a missing texture, or one that is no PNG or JPEG, leaves a material
-/// without), vertex colors after the coordinates, UVs. Only materials that faces use are kept.
-/// `.ply`: ASCII and binary of both byte orders, vertex colors, face colors (a material for
-/// each), per-vertex `s,t`/`u,v`, per-corner `texcoord`, triangle strips, and the materials that
-/// `writeMesh` adds. `.stl`: ASCII and binary, equal vertices joined. `.off`: text, with colors of
-/// vertices
-/// (`COFF`) and faces, normals and UVs (`ST`). `.glb` and `.gltf` (glTF 2.0, binary or JSON): every
-/// mesh of the scene with its node's transform, materials, `COLOR_0`, the UVs of the base-color
+/// `.obj`: materials and base-color textures from its `.mtl`, vertex colors after the coordinates,
+/// UVs. Only materials that faces use are kept. `.ply`: ASCII and binary of both byte orders,
+/// vertex colors, face colors (a material for each), per-vertex `s,t`/`u,v`, per-corner `texcoord`
+/// with the pictures that `comment TextureFile` names, triangle strips, and the materials that
+/// `writeMesh` adds. `.stl`: ASCII and binary, equal vertices joined, the face colors of Magics and
+/// VisCAM.
+/// `.off`: text, with or without its first word, with colors of vertices (`COFF`) and faces,
+/// normals and UVs (`ST`). `.glb` and `.gltf` (glTF 2.0, binary or JSON): every visible mesh of the
+/// scene with its node's transform or instances (EXT_mesh_gpu_instancing), skins as their joints
+/// are, morph targets by their default weights, materials, `COLOR_0`, the UVs of the base-color
 /// texture, embedded textures. Vertices that were split for normals or UVs are joined again, so
-/// that closed surfaces are closed; skins and morph targets stay at rest; compressed meshes are
-/// refused.
+/// that closed surfaces are closed; compressed meshes are refused.
 ///
-/// Colors are linear in memory and in `.glb`. The vertex and face colors of `.ply`, `.obj` and
-/// `.off` are taken to be sRGB, as Blender and MeshLab write them; `Kd` and `Ke` in a `.mtl` are
-/// linear.
+/// Text may be UTF-8 or UTF-16, with any line ends. Colors are linear in memory and in glTF. The
+/// vertex and face colors of `.ply`, `.obj`, `.stl` and `.off` are taken to be sRGB, as Blender and
+/// MeshLab write them, and to count to 1 or to 255, whichever a file's largest number says; `Kd`
+/// and `Ke` in a `.mtl` are linear.
+///
+/// What is missing or cannot be kept (a material library, a texture or one that is no PNG or JPEG,
+/// maps other than the base color, faces with fewer than three corners) is left out and named in
+/// `options.warnings`; a factor whose map is left out is left out with it.
 ///
 /// Throws `InputError` naming the file, and the line in text formats, for anything malformed:
-/// truncated, indices of vertices that do not exist, NaN or infinite coordinates, no triangle.
-/// Takes about 0.3 s for a million triangles; memory grows with the file, whatever its header
-/// claims.
+/// truncated, indices of vertices that do not exist, NaN or infinite coordinates, no triangle; and
+/// `Cancelled`. Takes about 0.3 s for a million triangles; memory grows with the file, whatever its
+/// header claims.
 TriangleMesh readMesh(const std::filesystem::path& path, const MeshFileOptions& options = {},
                       const Progress& progress = {});
 

@@ -56,7 +56,7 @@ std::string readMapFile(TextScanner& in) {
   // A comment follows a blank; within a name, '#' is a letter.
   file = file.substr(0, file.find(" #"));
   while (file.ends_with(' ')) file.remove_suffix(1);
-  return std::string(file);
+  return std::string(unquoted(file));
 }
 
 /// What a line that begins with `key`, in lower case, says about a material.

@@ -45,7 +45,7 @@ class ObjReader {
       } else if (key == "usemtl") {
         useMaterial(std::string(in_.rest()));
       } else if (key == "mtllib") {
-        readLibrary(std::string(in_.rest()));
+        readLibrary(std::string(unquoted(in_.rest())));
       } else if (key == "surf" || key == "curv") {
         source_.warn("free-form curves and surfaces are left out");
       }
@@ -150,11 +150,12 @@ class ObjReader {
   void readFace() {
     corners_.clear();
     bool pending = !pending_.empty();
+    const std::size_t vertices = mesh_.positions.size();
     while (!in_.atLineEnd()) {
       const std::int64_t number = in_.integerPrefix("vertex");
-      Corner corner{index(number, mesh_.positions.size()), kNone};
+      Corner corner{index(number, vertices), kNone};
       if (corner.position == kNone) failAtVertex(in_.line(), number);
-      pending = pending || corner.position >= mesh_.positions.size();
+      pending = pending || corner.position >= vertices;
       if (in_.take('/')) {
         if (in_.peekHere() != '/' && !in_.atWordEnd()) {
           corner.uv = index(in_.integerPrefix("texture coordinate"), uvs_.size());

@@ -111,7 +111,7 @@ Header readHeader(TextScanner& in) {
       const std::string_view kind = in.word();
       // "comment material 3 NAME": how `formatPly` keeps the names of materials.
       if (lowerCase(kind) == "texturefile") {
-        header.textureFiles.emplace_back(in.rest());
+        header.textureFiles.emplace_back(unquoted(in.rest()));
       } else if (kind == "material" && in.peek() >= '0' && in.peek() <= '9') {
         const std::int64_t index = in.integerPrefix("a material's index");
         if (index >= 0) header.materialNames[static_cast<std::size_t>(index)] = in.rest();
@@ -153,7 +153,7 @@ class Body {
   }
 
   void readRow() {
-    if (rows_++ % 16384 == 0) progress_.report("reading", fraction());
+    if (rows_++ % 16384 == 0) report();
     if (encoding_ == Encoding::Ascii) {
       readTextRow();
     } else {
@@ -162,10 +162,7 @@ class Body {
   }
 
   double scalar(int property) const {
-    if (hasWords_ && !words_[property].empty()) {
-      fail(element_->properties[property].name + " should be a number, not '" +
-           TextScanner::shown(words_[property]) + "'");
-    }
+    if (hasWords_) checkNumber(property);
     return scalars_[property];
   }
   const std::vector<double>& list(int property) const { return lists_[property]; }
@@ -176,6 +173,14 @@ class Body {
   }
 
  private:
+  [[gnu::noinline]] void checkNumber(int property) const {
+    if (words_[property].empty()) return;
+    fail(element_->properties[property].name + " should be a number, not '" +
+         TextScanner::shown(words_[property]) + "'");
+  }
+
+  [[gnu::noinline]] void report() const { progress_.report("reading", fraction()); }
+
   double fraction() const {
     if (encoding_ == Encoding::Ascii) return in_.fraction();
     return static_cast<double>(position_) / static_cast<double>(bytes_.size() + 1);
@@ -424,26 +429,27 @@ class PlyReader {
     hasFaceUvs_ = texcoord >= 0;
     hasMaterialIndices_ = material >= 0;
     hasTextureIndices_ = texture >= 0;
-    Face face;
+    const std::vector<double> none;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       body.readRow();
-      face.corners = body.list(indices);
-      if (texcoord >= 0) face.uvs = body.list(texcoord);
-      if (material >= 0) face.material = body.scalar(material);
-      if (texture >= 0) face.texture = body.scalar(texture);
+      const std::vector<double>& uvs = texcoord >= 0 ? body.list(texcoord) : none;
+      const double ofMaterial = material >= 0 ? body.scalar(material) : 0;
+      const double ofTexture = texture >= 0 ? body.scalar(texture) : 0;
       if (hasVertices_) {
-        addFace(face, body, faceColors_.present() ? &body : nullptr);
+        const std::size_t before = mesh_.triangles.size();
+        addFace(body.list(indices), uvs, ofMaterial, ofTexture, body);
+        if (faceColors_.present()) faceColors_.add(body, mesh_.triangles.size() - before);
       } else {
         // The vertices come later.
         if (faceColors_.present()) faceColors_.add(body);
-        pendingFaces_.push_back(face);
+        pendingFaces_.push_back({body.list(indices), uvs, ofMaterial, ofTexture});
       }
     }
   }
 
-  /// Adds a face, and its color for each of its triangles where `colored`, whose row has it.
-  void addFace(const Face& face, const Body& body, const Body* colored) {
-    const std::vector<double>& corners = face.corners;
+  /// Adds a face's triangles.
+  void addFace(const std::vector<double>& corners, const std::vector<double>& uvs, double material,
+               double texture, const Body& body) {
     if (!pendingFaces_.empty()) triangleCounts_.push_back(0);
     if (corners.size() < 3) {
       ++shortFaces_;
@@ -456,20 +462,19 @@ class PlyReader {
       body.fail("a concave face has " + std::to_string(corners.size()) + " corners; at most " +
                 std::to_string(kMostCorners) + " can be cut into triangles");
     }
-    const bool hasUvs = hasFaceUvs_ && face.uvs.size() == 2 * corners.size();
+    const bool hasUvs = hasFaceUvs_ && uvs.size() == 2 * corners.size();
     const auto cornerUv = [&](std::uint32_t c) {
-      return hasUvs ? uv(face.uvs[2 * c], face.uvs[2 * c + 1]) : Vec2f{};
+      return hasUvs ? uv(uvs[2 * c], uvs[2 * c + 1]) : Vec2f{};
     };
     for (const auto& [a, b, c] : pieces_) {
       mesh_.triangles.push_back({static_cast<std::uint32_t>(corners[a]),
                                  static_cast<std::uint32_t>(corners[b]),
                                  static_cast<std::uint32_t>(corners[c])});
       if (hasFaceUvs_) mesh_.uvs.push_back({cornerUv(a), cornerUv(b), cornerUv(c)});
-      if (hasMaterialIndices_) materialIndices_.push_back(face.material);
-      if (hasTextureIndices_) textureIndices_.push_back(face.texture);
+      if (hasMaterialIndices_) materialIndices_.push_back(material);
+      if (hasTextureIndices_) textureIndices_.push_back(texture);
     }
     if (!pendingFaces_.empty()) triangleCounts_.back() = static_cast<std::uint32_t>(pieces_.size());
-    if (colored) faceColors_.add(*colored, pieces_.size());
   }
 
   /// Triangle strips, as the Stanford scans have them: -1 ends a strip.
@@ -536,7 +541,7 @@ class PlyReader {
   }
 
   void finish(const Body& body) {
-    for (const Face& face : pendingFaces_) addFace(face, body, nullptr);
+    for (const Face& f : pendingFaces_) addFace(f.corners, f.uvs, f.material, f.texture, body);
     if (shortFaces_ > 0) {
       source_.warn("leaving out " + counted(shortFaces_, "face") +
                    " with fewer than three corners");

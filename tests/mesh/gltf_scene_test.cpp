@@ -159,6 +159,11 @@ TEST(GltfScene, ASkinPutsVerticesWhereItsJointsAre) {
   // Without matrices joints act as they are; the mesh's own node never does.
   scene.top = R"(,"skins":[{"joints":[1,2]}])";
   expectNear(scene.positions(), {{3, 0, 0}, {1, 0, 4}, {1.5, 1, 2}});
+  // A skeleton that hangs outside of the scene's nodes still has its place.
+  scene.nodes =
+      R"([{"mesh":0,"skin":0},{"translation":[3,0,0]},{"translation":[0,0,4]},{"children":[1,2],"translation":[0,0,1]}])";
+  scene.roots = "[0]";
+  expectNear(scene.positions(), {{3, 0, 1}, {1, 0, 5}, {1.5, 1, 3}});
   scene.top = R"(,"skins":[{"joints":[1]}])";
   EXPECT_THROW(scene.read(), InputError) << "vertices name a second joint";
   scene.top = R"(,"skins":[{"joints":[]}])";

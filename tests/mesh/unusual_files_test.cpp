@@ -220,6 +220,7 @@ TEST(UnusualObj, WhatIsNotThereIsSaid) {
   EXPECT_THAT(withLibrary("newmtl a\nmap_Kd gone.png\n").warnings,
               ElementsAre("f.obj: the texture gone.png is not found and is left out"));
   // Light comes with its map or not at all; other maps are named once.
+  EXPECT_EQ(withLibrary("newmtl a\nmap_Kd \"t.png\"\n").mesh.textures.size(), 1u) << "in quotes";
   r = withLibrary("newmtl a\nKe 1 1 1\nmap_Ke t.png\nmap_Bump -bm 1 t.png\nMAP_KD t.png # x\n");
   EXPECT_EQ(r.mesh.materials[0].emission, (Vec3f{0, 0, 0}));
   EXPECT_TRUE(r.mesh.materials[0].baseColorTexture.has_value());
