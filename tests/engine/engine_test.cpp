@@ -205,7 +205,7 @@ TEST(GeometryEngine, WhatIsKeptIsTheExamplesToTheBit) {
   Request request = smallRequest(geometryEngine());
   request.decided.keep = Source::of(half);
   const Result result = runOn(geometryEngine(), example, request);
-  forEachCell({12, 24, 12}, [&](const Vec3i& p) {
+  forEachCell(Vec3i{12, 24, 12}, [&](const Vec3i& p) {
     ASSERT_EQ(result.field().values[p], example.field().values[p]);
   });
   half.values = Array3D<float>(half.values.size(), 1.0f);
@@ -247,9 +247,8 @@ TEST(ParseComparedEngine, TakesTheSettingsThatSynthTakes) {
            {"blocks:block=x", "'x' is not a number"},
            {"model:tolerance=1", "is the same for all engines"},
            {"blocks:seed=1", "is the same for all engines"}}) {
-    EXPECT_THAT([&, &text = text] { parseComparedEngine(text); },
-                ThrowsMessage<InputError>(HasSubstr(says)))
-        << text;
+    const auto parse = [&written = text] { parseComparedEngine(written); };
+    EXPECT_THAT(parse, ThrowsMessage<InputError>(HasSubstr(says))) << text;
   }
 }
 
