@@ -20,7 +20,8 @@ std::string helpOf(const Setting& setting) {
   std::string text = setting.meaning;
   std::string usual = setting.byDefault;
   if (setting.type == SettingType::Flag) usual.clear();
-  if (!setting.unit.empty() && !usual.empty() && usual.find(' ') == std::string::npos) {
+  const bool number = !usual.empty() && usual.find_first_not_of("0123456789.,") == usual.npos;
+  if (!setting.unit.empty() && number) {
     usual += " " + setting.unit;
   } else if (!setting.unit.empty()) {
     text += ", in " + setting.unit;
@@ -95,7 +96,7 @@ void SettingOptions::install(CLI::App& command, Settings& into) const {
             },
             option.help)
         ->type_size(1)
-        ->expected(1, 1 << 20)
+        ->expected(-1)
         ->allow_extra_args(false)
         ->option_text(valueOf(option.setting))
         ->group(option.group);

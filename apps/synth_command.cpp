@@ -95,23 +95,53 @@ Plan planOf(const Options& options) {
   return plan;
 }
 
+/// What a run took, for its summary and its figures.
+struct Times {
+  Stopwatch total;
+  double read = 0, synthesis = 0;
+};
+
 /// Refuses what cannot be written before it is made.
 void checkExtent(const Options& options, const Plan& plan, std::span<const Example> examples) {
   const Vec3i size = plan.engine->extentOf(examples, plan.request);
   const int frames = plan.request.settings.has("frames") ? 1 : 0;
   requireOutputFits(options.output, plan.engine->form(), size, frames);
-  if (plan.surface.surface == SurfaceKind::Copy && (!examples[0].mesh || examples.size() > 1)) {
-    throw InputError("`surface` copy: " +
-                     std::string(examples[0].mesh ? "there are several examples"
-                                                  : "the example has no triangles to copy") +
-                     "; use contour");
-  }
+  requireSurface(plan.surface, examples);
 }
 
-/// Throws where there is no result.
-void requireComplete(const Result& result) {
+std::vector<Example> read(const Options& options, const Plan& plan, Terminal& terminal) {
+  std::vector<Example> examples =
+      readExamples(plan.sources, plan.reading, terminal.progress().part(0, 0.15));
+  for (const Example& example : examples) {
+    terminal.say("example", example.name() + ": " + example.description);
+    for (const std::string& warning : example.warnings) terminal.warn(warning);
+  }
+  checkExtent(options, plan, examples);
+  return examples;
+}
+
+/// A complete result; with `detail`, of `examples` that are sampled more finely, too.
+Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& terminal) {
+  const Progress& progress = terminal.progress();
+  Result result = plan.engine->run(examples, plan.request, progress.part(0.15, 0.6));
   if (result.outcome == Outcome::Cancelled) throw Cancelled();
   if (result.outcome != Outcome::Complete) throw Unfinished(result.why);
+  if (plan.surface.detail > 1) {
+    examples = refined(examples, plan.surface.detail, progress.part(0.6, 0.65));
+    result = withDetail(result, examples, plan.surface.detail, progress.part(0.65, 0.7));
+  }
+  for (const auto& [label, note] : result.notes) terminal.say(label, note);
+  for (const std::string& warning : result.warnings) terminal.warn(warning);
+  return result;
+}
+
+/// The surface, where anything that is to be written takes it.
+std::optional<Surface> surfaceFor(const Options& options, const Plan& plan, const Result& result,
+                                  std::span<const Example> examples, const Progress& progress) {
+  if (!needsSurface(options.output, result, plan.output) && options.preview.empty() &&
+      options.report.empty())
+    return std::nullopt;
+  return realize(result, examples, plan.surface, progress);
 }
 
 /// A page of the example, the result and their figures.
@@ -124,7 +154,10 @@ void writeReport(const Options& options, const Plan& plan, std::span<const Examp
     run["figures"] = toJson(figures(*measures));
   run["peak_memory_bytes"] = peakResidentBytes();
   if (example.form() == Form::Labels) run["labels"] = example.labels().labelCount();
-  const TriangleMesh whole = pictured(example.source, example.reading, progress.part(0.4, 0.5));
+  const TriangleMesh whole =
+      example.form() == Form::Labels
+          ? pictured(example, progress.part(0.4, 0.5))
+          : pictured(example.source, example.reading, progress.part(0.4, 0.5));
   const std::optional<SampledResult> samples = sampled(result, example);
   const auto* labeled = std::get_if<LabeledField>(&example.content);
   ResultPage page{options.report, example.source.path(), example.description, whole, surface.mesh};
@@ -136,74 +169,75 @@ void writeReport(const Options& options, const Plan& plan, std::span<const Examp
   writePage(page, std::move(run), plan.picture, progress.part(0.5, 1));
 }
 
-/// The main path, from file to file.
-void synth(const Options& options, Terminal& terminal) {
-  const Stopwatch total;
-  const Plan plan = planOf(options);
+void writeStats(const Options& options, const Result& result, const std::optional<Surface>& surface,
+                const Times& times, const Terminal& terminal) {
+  Json stats = {{"example", options.examples.front()},
+                {"output", options.output},
+                {"engine", result.engine},
+                {"seed", result.seed},
+                {"outcome", outcomeName(result.outcome)}};
+  stats.update(toJson(result.statistics));
+  if (surface) stats["mesh"] = toJson(surface->health);
+  stats["warnings"] = terminal.warnings();
+  const double total = times.total.seconds();
+  stats["seconds"] = {{"read", times.read},
+                      {"synthesis", times.synthesis},
+                      {"surface_and_picture", total - times.read - times.synthesis},
+                      {"total", total}};
+  stats["peak_rss_bytes"] = peakResidentBytes();
+  writeFile(options.stats, stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+/// The result first; what goes with it must not cost it.
+void write(const Options& options, const Plan& plan, std::span<const Example> examples,
+           const Result& result, const std::optional<Surface>& surface, const Times& times,
+           Terminal& terminal) {
   const Progress& progress = terminal.progress();
-
-  std::vector<Example> examples = readExamples(plan.sources, plan.reading, progress.part(0, 0.15));
-  for (const Example& example : examples) {
-    terminal.say("example", example.name() + ": " + example.description);
-    for (const std::string& warning : example.warnings) terminal.warn(warning);
-  }
-  checkExtent(options, plan, examples);
-  const double readSeconds = total.seconds();
-
-  const Stopwatch synthesis;
-  Result result = plan.engine->run(examples, plan.request, progress.part(0.15, 0.6));
-  requireComplete(result);
-  if (plan.surface.detail > 1) {
-    examples = refined(examples, plan.surface.detail, progress.part(0.6, 0.65));
-    result = withDetail(result, examples, plan.surface.detail, progress.part(0.65, 0.7));
-  }
-  const double synthesisSeconds = synthesis.seconds();
-  for (const auto& [label, note] : result.notes) terminal.say(label, note);
-  for (const std::string& warning : result.warnings) terminal.warn(warning);
-  terminal.say("result", readableExtent(result) + " in " + readableSeconds(synthesisSeconds) +
-                             ", seed " + std::to_string(result.seed));
-
-  const Stopwatch surfacing;
-  std::optional<Surface> surface;
-  if (needsSurface(options.output, result, plan.output) || !options.preview.empty() ||
-      !options.report.empty())
-    surface = realize(result, examples, plan.surface, progress.part(0.7, 0.85));
   const Written written =
       writeResult(options.output, result, examples, surface ? &*surface : nullptr, plan.output,
                   progress.part(0.85, 0.9));
   terminal.wrote(written.label, options.output, written.text);
   for (const std::string& warning : written.warnings) terminal.warn(warning);
+  if (!options.origins.empty()) {
+    writeOriginsVdb(options.origins, result.origins, result.field());
+    terminal.wrote("origins", options.origins, options.origins);
+  }
   if (!options.preview.empty()) {
     writePng(options.preview, render(surface->mesh, plan.picture, progress.part(0.9, 0.95)));
     terminal.wrote("picture", options.preview, options.preview);
   }
   if (!options.report.empty()) {
-    writeReport(options, plan, examples, result, *surface, synthesisSeconds,
-                progress.part(0.95, 1));
+    writeReport(options, plan, examples, result, *surface, times.synthesis, progress.part(0.95, 1));
     terminal.wrote("report", options.report, options.report);
   }
-  if (!options.origins.empty()) {
-    writeOriginsVdb(options.origins, result.origins, result.field());
-    terminal.wrote("origins", options.origins, options.origins);
-  }
   if (!options.stats.empty()) {
-    Json stats = {{"example", options.examples.front()},
-                  {"output", options.output},
-                  {"engine", result.engine},
-                  {"seed", result.seed},
-                  {"outcome", outcomeName(result.outcome)}};
-    stats.update(toJson(result.statistics));
-    if (surface) stats["mesh"] = toJson(surface->health);
-    stats["warnings"] = terminal.warnings();
-    stats["seconds"] = {{"read", readSeconds},
-                        {"synthesis", synthesisSeconds},
-                        {"surface_and_picture", surfacing.seconds()},
-                        {"total", total.seconds()}};
-    stats["peak_rss_bytes"] = peakResidentBytes();
-    writeFile(options.stats, stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    writeStats(options, result, surface, times, terminal);
     terminal.wrote("stats", options.stats, options.stats);
   }
-  terminal.done(readableSeconds(total.seconds()) + ", " +
+}
+
+/// The main path, from file to file.
+void synth(const Options& options, Terminal& terminal) {
+  Times times;
+  const Plan plan = planOf(options);
+
+  std::vector<Example> examples = read(options, plan, terminal);
+  times.read = times.total.seconds();
+
+  const Result result = synthesize(plan, examples, terminal);
+  times.synthesis = times.total.seconds() - times.read;
+  terminal.say("result", readableExtent(result) + " in " + readableSeconds(times.synthesis) +
+                             ", seed " + std::to_string(result.seed));
+
+  const std::optional<Surface> surface =
+      surfaceFor(options, plan, result, examples, terminal.progress().part(0.7, 0.85));
+  if (surface && surface->contoured > surface->health.triangles) {
+    terminal.say("simplified", withThousands(surface->contoured) + " triangles to " +
+                                   withThousands(surface->health.triangles));
+  }
+  write(options, plan, examples, result, surface, times, terminal);
+
+  terminal.done(readableSeconds(times.total.seconds()) + ", " +
                 readableBytes(static_cast<double>(peakResidentBytes())) + " of memory at its peak");
 }
 

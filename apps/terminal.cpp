@@ -69,10 +69,9 @@ void Terminal::show(std::string_view stage, double fraction) {
   const std::lock_guard lock(mutex_);
   meter_.report(stage, fraction);
   if (style_ == ProgressStyle::None) return;
-  const bool begins = stage != stage_;
-  stage_ = stage;
   if (style_ == ProgressStyle::Auto) {
-    if (begins) std::fprintf(stderr, "  %s ...\n", stage_.c_str());
+    const std::string name(stage);
+    if (stages_.insert(name).second) std::fprintf(stderr, "  %s ...\n", name.c_str());
     return;
   }
   const auto now = std::chrono::steady_clock::now();

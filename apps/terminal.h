@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,7 @@ namespace exemplar {
 
 /// How progress is shown on standard error.
 enum class ProgressStyle {
-  Auto,  ///< Line on a terminal; elsewhere each stage is named once when it begins
+  Auto,  ///< Line on a terminal; elsewhere each stage is named once, when it first begins
   Line,  ///< one line that changes: the stage, how much of the command is done, the time left
   Json,  ///< JSON objects, one a line, for programs (docs/progress.md)
   None,
@@ -63,7 +64,7 @@ class Terminal {
   bool quiet_;
   std::mutex mutex_;
   ProgressMeter meter_;
-  std::string stage_;
+  std::set<std::string> stages_;  ///< that were named
   std::chrono::steady_clock::time_point shown_;
   std::size_t width_ = 0;
   std::vector<std::string> warnings_, written_;

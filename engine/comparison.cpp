@@ -379,13 +379,16 @@ ComparedEngine parseComparedEngine(const std::string& text) {
     const auto [key, value] = keyAndValue(words[w], words[0], "NAME:KEY=VALUE");
     compared.settings.set(key, value);
   }
-  checkSettings(*compared.engine, compared.settings);
+  const std::vector<Setting> all = settingsOf(*compared.engine);
   for (const auto& [key, value] : compared.settings.given()) {
-    const bool reads = key.starts_with("field-");
-    if (!reads && std::ranges::find(compared.engine->settings(), key, &Setting::key) ==
-                      compared.engine->settings().end())
+    const bool known = std::ranges::find(all, key, &Setting::key) != all.end();
+    const bool own = key.starts_with("field-") ||
+                     std::ranges::find(compared.engine->settings(), key, &Setting::key) !=
+                         compared.engine->settings().end();
+    if (known && !own)
       throw InputError("`" + key + "`: is the same for all engines that are compared");
   }
+  checkSettings(*compared.engine, compared.settings);
   return compared;
 }
 

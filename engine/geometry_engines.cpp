@@ -158,10 +158,14 @@ typename SettingTable<O>::Row truncationRow() {
 
 const SettingTable<QuiltingOptions>& quiltingTable() {
   using O = QuiltingOptions;
-  static const SettingTable<O> table{stationaryRow<O>(),
-                                     settingRow<O>("levels", &O::levels, "levels of resolution",
-                                                   {1, 8}, "", "by the example's size"),
-                                     truncationRow<O>()};
+  static const SettingTable<O> table{
+      stationaryRow<O>(),
+      settingRow<O>("levels", &O::levels, "levels of resolution", {1, 8}, "",
+                    "by the example's size"),
+      settingRow<O>("patch", &O::patch, "side of the patches that repair a seam", {3, 15},
+                    "samples"),
+      settingRow<O>("rounds", &O::rounds, "searches and votes of a repair", {1, 100}),
+      truncationRow<O>()};
   return table;
 }
 
@@ -284,23 +288,34 @@ class GeometryEngine final : public FieldEngine {
  protected:
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {
-    return methodOf(examples, request).run(examples, request, progress);
+    if (const std::optional<Request> quilted = quiltingRequest(examples, request))
+      return quiltingEngine().run(examples, *quilted, progress);
+    return votingEngine().run(examples, request, progress);
   }
 
  private:
-  static const Engine& methodOf(std::span<const Example> examples, const Request& request) {
-    const bool plain = examples.size() == 1 && !request.decided.keep && !request.guide &&
-                       request.settings.text("rotations") != "true";
-    if (!plain) return votingEngine();
-    // What quilting does not have is asked of voting.
-    for (const auto& [key, text] : request.settings.given()) {
-      if (key != "rotations" &&
-          std::ranges::find(quiltingEngine().settings(), key, &Setting::key) ==
-              quiltingEngine().settings().end())
-        return votingEngine();
+  /// The request as quilting takes it; nothing where the example or the request does not suit it.
+  static std::optional<Request> quiltingRequest(std::span<const Example> examples,
+                                                const Request& request) {
+    const bool turns = request.settings.text("rotations") == "true";
+    if (examples.size() > 1 || request.decided.keep || request.guide || turns) return std::nullopt;
+    Request quilted = request;
+    quilted.settings.remove("rotations");
+    if (request.settings.has("rounds")) {
+      // A repair takes a sixth of the rounds of a level of votes.
+      VotingOptions voting;
+      votingTable().apply(request.settings, voting);
+      quilted.settings.set("rounds", (voting.rounds + 5) / 6);
     }
-    const QuiltingOptions options = QuiltingEngine::optionsOf(examples, request);
-    return suitsQuilting(examples.front().field(), options) ? quiltingEngine() : votingEngine();
+    // What quilting does not have is asked of voting.
+    for (const auto& [key, text] : quilted.settings.given()) {
+      if (std::ranges::find(quiltingEngine().settings(), key, &Setting::key) ==
+          quiltingEngine().settings().end())
+        return std::nullopt;
+    }
+    const QuiltingOptions options = QuiltingEngine::optionsOf(examples, quilted);
+    if (!suitsQuilting(examples.front().field(), options)) return std::nullopt;
+    return quilted;
   }
 };
 

@@ -31,26 +31,22 @@ Origins identityOrigins(const Vec3i& size) {
 
 Surface copied(const Result& result, std::span<const Example> examples, const Progress& progress) {
   const Example& example = examples.front();
-  if (!example.mesh || examples.size() > 1) {
-    throw InputError("`surface` copy: " +
-                     std::string(example.mesh ? "there are several examples"
-                                              : "the example has no triangles to copy") +
-                     "; use contour");
-  }
   CopiedTriangles made =
       copyTriangles(result.field(), result.origins, *example.mesh, example.field(), {}, progress);
-  return {std::move(made.mesh), made.health};
+  return {std::move(made.mesh), made.health, 0};
 }
 
 Surface contoured(const Result& result, std::span<const Example> examples,
-                  const Progress& progress) {
+                  const SurfaceOptions& surface, const Progress& progress) {
   std::vector<ReconstructExample> views;
   for (const Example& example : examples) views.push_back(viewOf(example.field(), example));
   ReconstructOptions options;
   options.contour.wraps = result.periodic;
+  options.simplify = surface.simplify;
+  options.triangles = surface.triangles;
   Reconstruction made =
       reconstructSurface(result.field(), result.origins, views, options, progress);
-  return {std::move(made.mesh), made.health};
+  return {std::move(made.mesh), made.health, made.contoured};
 }
 
 TriangleMesh boxesOf(const LabelGrid& grid, bool closedLabels, const std::string& what,
@@ -69,6 +65,13 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
           "surface", &O::surface,
           "contour the new field (closed, manifold), or copy the example's triangles",
           {{"contour", SurfaceKind::Contour}, {"copy", SurfaceKind::Copy}}),
+      settingRow<O>("simplify", &O::simplify,
+                    "merge triangles of the contour where the surface stays this near to where it "
+                    "was",
+                    kFromZero, "voxels"),
+      settingRow<O>("triangles", &O::triangles,
+                    "merge triangles of the contour until there are no more than this (0: do not)",
+                    kFromZero),
       settingRow<O>(
           "detail", &O::detail,
           "re-make the result at this many times the resolution, with the example's finer "
@@ -79,11 +82,22 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
   return form == Form::Field ? field : labels;
 }
 
+void requireSurface(const SurfaceOptions& options, std::span<const Example> examples) {
+  if (options.surface == SurfaceKind::Contour) return;
+  if (options.simplify > 0 || options.triangles > 0)
+    throw InputError("`simplify`, `triangles`: only a contour is simplified, not copied triangles");
+  if (examples.size() > 1)
+    throw InputError("`surface` copy: there are several examples; use contour");
+  if (!examples.front().mesh)
+    throw InputError("`surface` copy: the example has no triangles to copy; use contour");
+}
+
 Surface realize(const Result& result, std::span<const Example> examples,
                 const SurfaceOptions& options, const Progress& progress) {
+  requireSurface(options, examples);
   if (result.form() == Form::Field) {
     return options.surface == SurfaceKind::Copy ? copied(result, examples, progress)
-                                                : contoured(result, examples, progress);
+                                                : contoured(result, examples, options, progress);
   }
   Surface surface;
   surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));

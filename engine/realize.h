@@ -23,15 +23,21 @@ enum class SurfaceKind {
 
 struct SurfaceOptions {
   SurfaceKind surface = SurfaceKind::Contour;
+  double simplify = 0;         ///< Field: merge triangles that stay within this many voxels, >= 0
+  std::int64_t triangles = 0;  ///< Field: merge triangles down to this many; 0 for not at all
   int detail = 1;          ///< Field: re-make the result at this many times the resolution, 1..16
   bool instances = false;  ///< Labels: write each model piece once and place it (.glb)
 };
 /// The settings that fill `SurfaceOptions`, for results of a form.
 const SettingTable<SurfaceOptions>& surfaceSettings(Form form);
 
+/// Throws `InputError` where results of these examples cannot have such a surface.
+void requireSurface(const SurfaceOptions& options, std::span<const Example> examples);
+
 struct Surface {
   TriangleMesh mesh;
   MeshHealth health;
+  std::int64_t contoured = 0;  ///< triangles of a contour before they were merged
 };
 
 /// A complete result as triangles with the examples' materials: of a field its contour, or the

@@ -217,8 +217,13 @@ std::string spelled(std::string_view message,
 }
 
 std::string numberText(double value) {
-  char text[32];
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  // Without an exponent where that is readable.
+  const double size = std::abs(value);
+  const bool fixed = value == 0 || (size >= 1e-6 && size < 1e15);
+  char text[64];
+  const auto [end, error] =
+      fixed ? std::to_chars(text, text + sizeof text, value, std::chars_format::fixed)
+            : std::to_chars(text, text + sizeof text, value);
   return error == std::errc{} ? std::string(text, end) : std::string();
 }
 

@@ -23,13 +23,19 @@ struct ReconstructExample {
 
 struct ReconstructOptions {
   FieldToMeshOptions contour;
+  /// Merge triangles of the contour where the surface stays within this many voxels of where it was
+  /// (`decimate`), >= 0; 0 for not at all. Not where the field wraps: copies would not join.
+  double simplify = 0;
+  /// Stop merging at this many triangles, >= 0; with `simplify` 0, merge until there are no more.
+  std::int64_t triangles = 0;
   TransferOptions appearance;
 };
 
 struct Reconstruction {
   TriangleMesh mesh;
   MeshHealth health;
-  FieldToMeshReport contour;  ///< without its health
+  std::int64_t contoured = 0;  ///< triangles before they were merged
+  FieldToMeshReport contour;   ///< without its health
 };
 
 /// From what a synthesis returns to what leaves the program: contours the field, and takes

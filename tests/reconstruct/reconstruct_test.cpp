@@ -58,6 +58,31 @@ TEST(ReconstructSurface, IsSoundAndCarriesEverything) {
   EXPECT_NEAR(result.health.signedVolume, volume, 0.05 * volume);
 }
 
+TEST(ReconstructSurface, MergesTrianglesAndStaysSoundWithItsMaterials) {
+  const Blocks blocks;
+  const ReconstructExample example{blocks.exampleField, &blocks.example};
+  const Reconstruction whole = reconstructSurface(blocks.field, blocks.origins, example);
+  EXPECT_EQ(whole.contoured > 0, true);
+  const double volume = whole.health.signedVolume;
+  std::int64_t before = whole.contoured;
+  for (const double error : {0.05, 0.2}) {
+    const Reconstruction merged =
+        reconstructSurface(blocks.field, blocks.origins, example, {.simplify = error});
+    EXPECT_EQ(merged.contoured, whole.contoured);
+    // Borders of materials cut triangles, so there are more than were left of the contour.
+    EXPECT_LT(merged.health.triangles, before) << error;
+    before = merged.health.triangles;
+    EXPECT_TRUE(merged.health.closed() && merged.health.manifold() && merged.health.oriented());
+    EXPECT_TRUE(merged.mesh.hasMaterials());
+    EXPECT_NEAR(merged.health.signedVolume, volume, 0.02 * volume);
+  }
+  const Reconstruction few =
+      reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField}, {.triangles = 2000});
+  EXPECT_LE(few.health.triangles, 2000);
+  EXPECT_GT(few.health.triangles, 1000);
+  EXPECT_TRUE(few.health.closed());
+}
+
 TEST(ReconstructSurface, WithoutTrianglesThereIsNothingToCarry) {
   const Blocks blocks;
   const Reconstruction result =
