@@ -96,7 +96,7 @@ void SettingOptions::install(CLI::App& command, Settings& into) const {
             },
             option.help)
         ->type_size(1)
-        ->expected(-1)
+        ->expected(1, -1)
         ->allow_extra_args(false)
         ->option_text(valueOf(option.setting))
         ->group(option.group);

@@ -35,7 +35,7 @@ function(exemplar_library room)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   # What is only headers is compiled in: programs that use the installed library do not need it.
   list(TRANSFORM ARG_PRIVATE REPLACE
-    "^((nlohmann_json|tomlplusplus|Eigen3)::.+)$" "$<BUILD_INTERFACE:\\1>")
+    "^((nlohmann_json|Eigen3)::.+)$" "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(exemplar_${room} PUBLIC ${ARG_LINK}
     PRIVATE $<BUILD_INTERFACE:exemplar_build_options> ${ARG_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY EXEMPLAR_LIBRARIES ${room})

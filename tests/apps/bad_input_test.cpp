@@ -91,7 +91,7 @@ TEST(BadCommand, MissingFileIsNamed) {
 TEST(BadCommand, NoCommandAndUnknownOptionAreStatusTwo) {
   const TestFolder folder;
   for (const auto& [arguments, says] : {std::pair{"", "A subcommand is required"},
-                                        {"frobnicate", "frobnicate"},
+                                        {"frobnicate", "A subcommand is required"},
                                         {"synth e.obj -o o.obj --frobnicate", "--frobnicate"}}) {
     const auto run = runExemplar(arguments, folder.path());
     EXPECT_EQ(run.status, 2) << arguments;

@@ -80,7 +80,7 @@ TEST_F(CompareCommand, TakesExamplesTooSmallToMeasure) {
   EXPECT_TRUE(runs[0].at("figures").at("likeness").at("fpd").is_null());
   // A block of 16 does not fit, which is a finding.
   EXPECT_EQ(runs[1].at("status"), "refused");
-  EXPECT_THAT(runs[1].at("why").get<std::string>(), HasSubstr("block 16"));
+  EXPECT_THAT(runs[1].at("why").get<std::string>(), HasSubstr("`block` 16"));
 }
 
 TEST_F(CompareCommand, SweepsOverSettings) {

@@ -83,7 +83,7 @@ TEST(SynthCommand, AHeightMapGivesAHeightMapOrAMesh) {
   HeightMap map{48, 48, std::vector<float>(48 * 48), 1};
   for (int n = 0; n < 48 * 48; ++n)
     map.heights[n] = static_cast<float>(100 + (n % 48 * 7 + n / 48 * 5) % 90);
-  writeHeightMap(folder / "e.pgm", map);
+  writeHeightMap(folder / "e.pgm", map, {.heightScale = 1});
   ASSERT_EQ(
       runExemplar(std::string("synth e.pgm --cell-size 10") + kQuick + "-o o.png", folder.path())
           .status,

@@ -244,7 +244,7 @@ TEST(ParseComparedEngine, TakesTheSettingsThatSynthTakes) {
            {"best", "expected geometry"},
            {"blocks:", "NAME:KEY=VALUE"},
            {"blocks:patch=7", "the engine blocks has no such setting"},
-           {"blocks:block=x", "'x' is not a number"},
+           {"blocks:block=x", "`block` x: expected 2 to 256 samples"},
            {"model:tolerance=1", "is the same for all engines"},
            {"blocks:seed=1", "is the same for all engines"}}) {
     const auto parse = [&written = text] { parseComparedEngine(written); };
