@@ -27,20 +27,6 @@ struct Options {
   PictureOptions picture;
 };
 
-/// The surface of a result that was given as samples.
-TriangleMesh surfaceOf(const Measured& measured, const Example& example, const Progress& progress) {
-  if (measured.mesh) return *measured.mesh;
-  if (measured.origins.count() == 0) {
-    Example alone;
-    alone.data = measured.field;
-    return contourOf(alone, progress);
-  }
-  Result result;
-  result.data = measured.field;
-  result.origins = measured.origins;
-  return realize(result, {&example, 1}, {}, progress).mesh;
-}
-
 /// A page of the example, the result and their figures.
 void writeReport(const Options& options, const Example& example, const Measured& measured,
                  const std::vector<Figure>& all, const RenderOptions& picture,

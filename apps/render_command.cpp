@@ -12,26 +12,6 @@
 #include "mesh/image.h"
 
 namespace exemplar {
-namespace {
-
-/// One picture of several meshes in a row: each is framed by a box of the largest one's size about
-/// its own center.
-Image8 renderSideBySide(const std::vector<TriangleMesh>& meshes, const RenderOptions& options,
-                        const Progress& progress) {
-  Vec3d size{};
-  for (const TriangleMesh& mesh : meshes) size = max(size, boundingBox(mesh).size());
-  std::vector<Image8> images;
-  const auto count = static_cast<double>(meshes.size());
-  for (const TriangleMesh& mesh : meshes) {
-    RenderOptions framed = options;
-    framed.frame = frameOfSize(boundingBox(mesh), size);
-    const auto n = static_cast<double>(images.size());
-    images.push_back(render(mesh, framed, progress.part(n / count, (n + 1) / count)));
-  }
-  return images.size() == 1 ? images.front() : sideBySide(images);
-}
-
-}  // namespace
 
 Command addRenderCommand(CLI::App& app) {
   struct Options {

@@ -105,7 +105,7 @@ void Terminal::wipe() {
 void Terminal::say(std::string_view label, const std::string& text) {
   wipe();
   if (quiet_) return;
-  std::printf("%-9.*s %s\n", static_cast<int>(label.size()), label.data(),
+  std::printf("%-10.*s %s\n", static_cast<int>(label.size()), label.data(),
               spelledAsOptions(text).c_str());
   std::fflush(stdout);
 }

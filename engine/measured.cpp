@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "engine/realize.h"
 #include "engine/request.h"
 #include "measure/mesh_result.h"
 #include "sdf/vdb_file.h"
@@ -55,6 +56,19 @@ Measured readMeasured(const Source& result, const std::optional<Source>& origins
     throw InputError(result.name() + ": " + error.what());
   }
   return measured;
+}
+
+TriangleMesh surfaceOf(const Measured& measured, const Example& example, const Progress& progress) {
+  if (measured.mesh) return *measured.mesh;
+  if (measured.origins.count() == 0) {
+    Example alone;
+    alone.data = measured.field;
+    return contourOf(alone, progress);
+  }
+  Result result;
+  result.data = measured.field;
+  result.origins = measured.origins;
+  return realize(result, {&example, 1}, {}, progress).mesh;
 }
 
 Measures measure(const Measured& result, const Example& example, const Progress& progress) {

@@ -35,6 +35,10 @@ struct Measured {
 Measured readMeasured(const Source& result, const std::optional<Source>& origins,
                       const std::optional<Vec3d>& scale, const Example& example,
                       const Progress& progress = {});
+/// Its triangles: as given, or made of its samples, with the example's materials where it has
+/// origins. Throws `InputError` and `Cancelled`.
+TriangleMesh surfaceOf(const Measured& result, const Example& example,
+                       const Progress& progress = {});
 Measures measure(const Measured& result, const Example& example, const Progress& progress = {});
 
 }  // namespace exemplar

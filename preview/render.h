@@ -73,4 +73,9 @@ inline constexpr std::uint8_t kBackground[3] = {240, 240, 241};
 /// are centered. All have 3 channels. Throws `InputError` for none, or where they would not fit.
 Image8 sideBySide(std::span<const Image8> pictures, int gap = 0);
 
+/// Meshes in a row at one scale, each in a picture of the size that `options` says: framed by a box
+/// of the largest one's size. Throws as `render` and `sideBySide` do.
+Image8 renderSideBySide(std::span<const TriangleMesh> meshes, const RenderOptions& options,
+                        const Progress& progress = {});
+
 }  // namespace exemplar

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -44,6 +45,21 @@ Image8 sideBySide(std::span<const Image8> pictures, int gap) {
     left += picture.width + gap;
   }
   return row;
+}
+
+Image8 renderSideBySide(std::span<const TriangleMesh> meshes, const RenderOptions& options,
+                        const Progress& progress) {
+  Vec3d size{};
+  for (const TriangleMesh& mesh : meshes) size = max(size, boundingBox(mesh).size());
+  std::vector<Image8> images;
+  const auto count = static_cast<double>(meshes.size());
+  for (const TriangleMesh& mesh : meshes) {
+    RenderOptions framed = options;
+    framed.frame = frameOfSize(boundingBox(mesh), size);
+    const auto n = static_cast<double>(images.size());
+    images.push_back(render(mesh, framed, progress.part(n / count, (n + 1) / count)));
+  }
+  return images.size() == 1 ? images.front() : sideBySide(images);
 }
 
 }  // namespace exemplar

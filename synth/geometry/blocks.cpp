@@ -30,6 +30,11 @@ bool keepsHeight(const DistanceField& example, const BlocksOptions& options) {
   return options.size.z == example.size().z && !findStationaryAxes(example).z;
 }
 
+/// What step `n` of `count` equal ones reports to.
+Progress shareOf(const Progress& progress, int n, int count) {
+  return progress.part(static_cast<double>(n) / count, static_cast<double>(n + 1) / count);
+}
+
 /// The example as iterations with blocks of one size search it: quantized, at least a block thick
 /// along each axis, and, where blocks keep their height, cut into overlapping slabs of a block's
 /// height.
@@ -40,7 +45,8 @@ struct BlockSource {
   std::vector<SlidingPyramid> pyramids;   ///< of the slabs
   std::vector<SearchTree> trees;          ///< of the slabs, where they are what is searched
 
-  BlockSource(const DistanceField& example, int blockSide, const BlocksOptions& options)
+  BlockSource(const DistanceField& example, int blockSide, const BlocksOptions& options,
+              const Progress& progress)
       : side(blockSide), slabs(keepsHeight(example, options)) {
     const auto levels =
         quantize(example, static_cast<float>(options.truncation * example.voxelSize)).levels;
@@ -54,9 +60,12 @@ struct BlockSource {
       });
       return source;
     };
-    for (int slab = 0; slab < (slabs ? halves - 1 : 1); ++slab) {
+    const int count = slabs ? halves - 1 : 1;
+    for (int slab = 0; slab < count; ++slab) {
+      progress.check();
       auto levelsOfSlab = slabs ? cut(slab * (side / 2), side) : cut(0, size.z);
-      if (options.search == BlockSearch::Tree) trees.emplace_back(levelsOfSlab, side);
+      if (options.search == BlockSearch::Tree)
+        trees.emplace_back(levelsOfSlab, side, shareOf(progress, slab, count));
       pyramids.emplace_back(std::move(levelsOfSlab), side);
     }
     pyramid.emplace(cut(0, size.z), side);
@@ -70,7 +79,8 @@ struct BlockSource {
 class Pass {
  public:
   /// `size` of the target at `level`, whose cells are 2^level finest samples.
-  Pass(const BlockSource& source, int level, const Vec3i& size, const BlocksOptions& options)
+  Pass(const BlockSource& source, int level, const Vec3i& size, const BlocksOptions& options,
+       const Progress& progress)
       : source_(source.pyramid->averages(level)),
         step_(1 << level),
         half_(source.side / step_ / 2),
@@ -90,7 +100,10 @@ class Pass {
       parallelForEachCell(lattice.size(),
                           [&](const Vec3i& p) { lattice[p] = averages[p * step_]; });
       if (options.search == BlockSearch::Index) {
-        indices_.emplace_back(std::move(lattice), Vec3i{1, 1, 1} * (2 * half_));
+        const int slab = static_cast<int>(indices_.size());
+        const int count = static_cast<int>(source.pyramids.size());
+        indices_.emplace_back(std::move(lattice), Vec3i{1, 1, 1} * (2 * half_), BlockIndexOptions{},
+                              shareOf(progress, slab, count));
       } else {
         lattices_.push_back(std::move(lattice));
       }
@@ -296,18 +309,19 @@ SynthesisResult synthesizeBlocks(const DistanceField& example, const BlocksOptio
     const Progress iteration = levelProgress(progress, level, options.iterations);
     iteration.report(stage, 0);
     const int side = blockSide(example, options, level);
-    if (!source || source->side != side) source.emplace(example, side, options);
+    if (!source || source->side != side)
+      source.emplace(example, side, options, iteration.part(0, 0.05));
     const int cell = 1 << level;
     Pass pass(*source, level,
               {(options.size.x + cell - 1) / cell, (options.size.y + cell - 1) / cell,
                (options.size.z + cell - 1) / cell},
-              options);
+              options, iteration.part(0.05, 0.15));
     if (origins.empty()) {
       pass.seedRandomly();
     } else {
       pass.seedWith(origins);
     }
-    pass.run(stage, iteration);
+    pass.run(stage, iteration.part(0.15, 1));
     result.matches += pass.matches();
     origins = pass.origins();
   }
