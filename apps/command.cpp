@@ -138,7 +138,8 @@ RenderOptions renderOptions(const PictureOptions& options) {
   char end = 0;
   if (std::sscanf(options.size.c_str(), "%dx%d%c", &render.width, &render.height, &end) != 2 ||
       render.width < 1 || render.height < 1 || render.width > 16384 || render.height > 16384) {
-    throw InputError("--size " + options.size + ": expected WIDTHxHEIGHT, each 1 to 16384");
+    throw InputError("the picture's --size " + options.size +
+                     ": expected WIDTHxHEIGHT, each 1 to 16384");
   }
   return render;
 }

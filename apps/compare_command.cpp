@@ -59,6 +59,7 @@ void compareEngines(const Options& options, Terminal& terminal) {
   comparison.firstSeed = options.firstSeed;
   comparison.seeds = options.seeds;
   comparison.scale = requestOf(options.settings).extent.scale;
+  comparison.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path); };
   const ReadOptions reading = readingOf(options.settings, Form::Field);
   comparison.mesh = reading.mesh;
   const Example example = readExample(options.example, reading, terminal.progress().part(0, 0.1));

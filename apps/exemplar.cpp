@@ -9,7 +9,9 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <new>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/command.h"
@@ -29,6 +31,7 @@ int run(const exemplar::Command& command) {
   };
   try {
     command.run(terminal);
+    terminal.done();
     return kDone;
   } catch (const exemplar::Cancelled&) {
     return failed(terminal.interruption(), kInterrupted);
@@ -64,7 +67,16 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    std::cerr << "exemplar: " << e.what() << " (see exemplar --help)" << std::endl;
+    // Programs that asked for JSON read nothing else.
+    const std::span<char*> words(argv, static_cast<std::size_t>(argc));
+    bool json = false;
+    for (std::size_t w = 1; w < words.size(); ++w) {
+      const std::string_view word = words[w];
+      json = json || word == "--progress=json" ||
+             (word == "json" && std::string_view(words[w - 1]) == "--progress");
+    }
+    Terminal(json ? ProgressStyle::Json : ProgressStyle::None, false)
+        .fail(std::string(e.what()) + " (see exemplar --help)", kWrongInput);
     return kWrongInput;
   }
   for (const Command& command : commands) {

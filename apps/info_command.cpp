@@ -28,6 +28,9 @@ struct Options {
   Settings settings;
 };
 
+/// Regions that are looked at in search of a proof.
+constexpr std::int64_t kMostRegions = 200'000;
+
 std::string percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, share < 0.01 ? "%.2g %%" : "%.1f %%", 100 * share);
@@ -54,9 +57,10 @@ Json meshInfo(const Options& options, Terminal& terminal) {
 }
 
 /// Whether plain propagation can fail on the example's rules, as far as that can be proved.
-void tellProof(const Adjacency& adjacency, Terminal& terminal, Json& json) {
+void reportProof(const Adjacency& adjacency, Terminal& terminal, Json& json) {
   terminal.progress().report("looking for a proof that propagation cannot fail", 0.5);
-  const RuleSummary rules = summarizeRules(adjacency);
+  const RuleSummary rules =
+      summarizeRules(adjacency, kMostRegions, terminal.progress().part(0.5, 1));
   const Vec3i r = rules.proof.region;
   const std::string region = std::to_string(r.x) + " x " + std::to_string(r.y) + " x " +
                              std::to_string(r.z) + " cells (" + withThousands(rules.proof.regions) +
@@ -115,7 +119,7 @@ Json labelInfo(const Options& options, Terminal& terminal) {
   }
   terminal.say("adjacency", text);
   json["adjacency_density"] = density;
-  tellProof(adjacency, terminal, json);
+  reportProof(adjacency, terminal, json);
   if (const auto* pieces = std::get_if<ModelPieces>(&example.content)) {
     const ModelPieces& p = *pieces;
     const auto images = [&](const std::vector<Label>& of) {
@@ -158,6 +162,7 @@ void info(const Options& options, Terminal& terminal) {
     std::fputs(text.c_str(), stdout);
   } else if (!options.json.empty()) {
     writeFile(options.json, text);
+    terminal.noteFile(options.json, "info");
   }
 }
 

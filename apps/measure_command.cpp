@@ -58,8 +58,11 @@ void measureFiles(const Options& options, Terminal& terminal) {
   if (options.json == "-") {
     std::printf("%s\n", toJson(all).dump(2).c_str());
   } else {
-    terminal.print(figuresTable(all));
-    if (!options.json.empty()) writeFile(options.json, toJson(all).dump(2) + "\n");
+    if (!terminal.quiet()) terminal.print(figuresTable(all));
+    if (!options.json.empty()) {
+      writeFile(options.json, toJson(all).dump(2) + "\n");
+      terminal.noteFile(options.json, "figures");
+    }
   }
   if (!options.report.empty()) {
     writeReport(options, example, measured, all, picture, progress.part(0.7, 1));

@@ -59,6 +59,30 @@ const Engine& engineOf(const Options& options, Settings& settings) {
   return method == "blocks" ? engineNamed("blocks") : engine;
 }
 
+/// Refuses outputs that would overwrite each other, or what they are made from.
+void requireDistinct(const Options& options) {
+  std::vector<std::string> paths = options.examples;
+  paths.insert(paths.end(), options.with.begin(), options.with.end());
+  for (const char* key : {"keep", "guide", "mask"})
+    if (options.settings.has(key)) paths.push_back(options.settings.text(key));
+  const auto whole = [](const std::string& path) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  };
+  const auto same = [&](const std::string& a, const std::string& b) {
+    return whole(a) == whole(b);
+  };
+  for (const std::string* output :
+       {&options.output, &options.preview, &options.stats, &options.origins, &options.report}) {
+    if (output->empty()) continue;
+    for (const std::string& path : paths) {
+      if (same(path, *output))
+        throw InputError(*output + ": is read or written already; choose another name");
+    }
+    paths.push_back(*output);
+  }
+}
+
 Plan planOf(const Options& options) {
   Plan plan;
   Settings settings = options.settings;
@@ -87,7 +111,12 @@ Plan planOf(const Options& options) {
     plan.sources.insert(plan.sources.end(), paths->begin(), paths->end());
   plan.reading = readingOf(settings, form);
   surfaceSettings(form).apply(settings, plan.surface);
-  plan.output = {plan.reading.mesh, plan.surface.instances, plan.picture};
+  plan.output = {plan.reading.mesh, plan.surface.instances, plan.picture, {}};
+  requireDistinct(options);
+  if (plan.sources.size() > 1 && !plan.engine->mixes()) {
+    throw InputError("the engine " + std::string(plan.engine->name()) + " takes one example, not " +
+                     std::to_string(plan.sources.size()));
+  }
   // What is left is asked of the engine.
   for (const auto& table : {readingSettings(form).settings(), surfaceSettings(form).settings()})
     for (const Setting& setting : table) settings.remove(setting.key);
@@ -105,7 +134,7 @@ struct Times {
 void checkExtent(const Options& options, const Plan& plan, std::span<const Example> examples) {
   const Vec3i size = plan.engine->extentOf(examples, plan.request);
   const int frames = plan.request.settings.has("frames") ? 1 : 0;
-  requireOutputFits(options.output, plan.engine->form(), size, frames);
+  requireOutputFits(options.output, plan.engine->form(), size, frames, plan.surface.instances);
   requireSurface(plan.surface, examples);
 }
 
@@ -189,14 +218,19 @@ void writeStats(const Options& options, const Result& result, const std::optiona
 }
 
 /// The result first; what goes with it must not cost it.
-void write(const Options& options, const Plan& plan, std::span<const Example> examples,
+void write(const Options& options, Plan plan, std::span<const Example> examples,
            const Result& result, const std::optional<Surface>& surface, const Times& times,
            Terminal& terminal) {
   const Progress& progress = terminal.progress();
+  plan.output.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path, "frame"); };
   const Written written =
       writeResult(options.output, result, examples, surface ? &*surface : nullptr, plan.output,
                   progress.part(0.85, 0.9));
-  terminal.wrote(written.label, options.output, written.text);
+  if (result.laterFrames.empty() || lowerExtension(options.output) == ".gif") {
+    terminal.wrote(written.label, options.output, written.text);
+  } else {
+    terminal.say(written.label, written.text);
+  }
   for (const std::string& warning : written.warnings) terminal.warn(warning);
   if (!options.origins.empty()) {
     writeOriginsVdb(options.origins, result.origins, result.field());
@@ -237,8 +271,9 @@ void synth(const Options& options, Terminal& terminal) {
   }
   write(options, plan, examples, result, surface, times, terminal);
 
-  terminal.done(readableSeconds(times.total.seconds()) + ", " +
-                readableBytes(static_cast<double>(peakResidentBytes())) + " of memory at its peak");
+  terminal.say("done", readableSeconds(times.total.seconds()) + ", " +
+                           readableBytes(static_cast<double>(peakResidentBytes())) +
+                           " of memory at its peak");
 }
 
 void addSettings(CLI::App& command, Settings& into) {

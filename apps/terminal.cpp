@@ -112,7 +112,7 @@ void Terminal::say(std::string_view label, const std::string& text) {
 
 void Terminal::print(const std::string& text) {
   wipe();
-  if (!quiet_) std::fputs(text.c_str(), stdout);
+  std::fputs(text.c_str(), stdout);
 }
 
 void Terminal::warn(const std::string& text) {
@@ -127,15 +127,16 @@ void Terminal::warn(const std::string& text) {
 
 void Terminal::wrote(std::string_view label, const std::filesystem::path& path,
                      const std::string& text) {
-  written_.push_back(path.string());
-  event(dumped({{"event", "file"}, {"kind", std::string(label)}, {"path", path.string()}}));
+  noteFile(path, label);
   say(label, text);
 }
 
-void Terminal::done(const std::string& text) {
-  event(dumped({{"event", "done"}}));
-  say("done", text);
+void Terminal::noteFile(const std::filesystem::path& path, std::string_view kind) {
+  written_.push_back(path.string());
+  event(dumped({{"event", "file"}, {"kind", std::string(kind)}, {"path", path.string()}}));
 }
+
+void Terminal::done() { event(dumped({{"event", "done"}})); }
 
 void Terminal::fail(const std::string& text, int status) {
   wipe();

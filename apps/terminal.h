@@ -36,7 +36,8 @@ class Terminal {
   const Progress& progress() const { return progress_; }
   /// One line of the summary on standard output: a label and its text.
   void say(std::string_view label, const std::string& text);
-  /// Text on standard output, as it is.
+  bool quiet() const { return quiet_; }
+  /// A document on standard output, as it is, also where the summary is not wanted.
   void print(const std::string& text);
   /// No summary from here on, for a command that prints a document.
   void beQuiet() { quiet_ = true; }
@@ -44,8 +45,10 @@ class Terminal {
   void warn(const std::string& text);
   /// Says that a file was written.
   void wrote(std::string_view label, const std::filesystem::path& path, const std::string& text);
-  /// Says that the command is done.
-  void done(const std::string& text);
+  /// Notes a file for `interruption`, and reports it to programs, without a line for people.
+  void noteFile(const std::filesystem::path& path, std::string_view kind = "file");
+  /// Reports to programs that the command is done.
+  void done();
   /// Says that it failed: one line on standard error.
   void fail(const std::string& text, int status);
   /// Wipes the progress line.

@@ -173,7 +173,7 @@ Run runEngine(const ComparedEngine& compared, const Example& example, const Vec3
   return run;
 }
 
-/// "optimize-patch-9-0": the beginning of the names of a run's files.
+/// "geometry-patch-9-0": the beginning of the names of a run's files.
 std::string runName(std::string engine, std::uint64_t seed) {
   std::ranges::replace_if(
       engine, [](char c) { return c == ':' || c == '=' || c == ',' || c == '/'; }, '-');
@@ -187,15 +187,31 @@ void makeFolder(const fs::path& folder) {
     throw InputError(folder.string() + ": cannot be made a folder; name one that can");
 }
 
-/// What decides a run's result: a finished run with the same is not made again. The example counts
-/// with its samples, so that an edited file is another one.
-Json requestJson(const Example& example, const Vec3d& scale, const std::string& engine,
-                 std::uint64_t seed) {
-  std::uint64_t hash = 1469598103934665603u;  // FNV-1a
-  for (const float value : example.field().values.values()) {
-    hash ^= std::bit_cast<std::uint32_t>(value);
-    hash *= 1099511628211u;
+/// A hash (FNV-1a) of all that a result can take from the example.
+std::uint64_t hashOf(const Example& example) {
+  std::uint64_t hash = 1469598103934665603u;
+  const auto add = [&](std::uint64_t bits) { hash = (hash ^ bits) * 1099511628211u; };
+  for (const float value : example.field().values.values())
+    add(std::bit_cast<std::uint32_t>(value));
+  if (!example.mesh) return hash;
+  const TriangleMesh& mesh = *example.mesh;
+  for (const Vec3d& p : mesh.positions)
+    for (int axis = 0; axis < 3; ++axis) add(std::bit_cast<std::uint64_t>(p[axis]));
+  for (const auto& color : mesh.colors)
+    for (const float c : color) add(std::bit_cast<std::uint32_t>(c));
+  for (const std::uint32_t material : mesh.triangleMaterials) add(material);
+  for (const Material& material : mesh.materials) {
+    for (const float c : material.baseColor) add(std::bit_cast<std::uint32_t>(c));
+    for (const char c : material.name) add(static_cast<unsigned char>(c));
   }
+  return hash;
+}
+
+/// What decides a run's result and its picture: a finished run with the same is not made again. The
+/// example counts with its samples and materials, so that an edited file is another one.
+Json requestJson(const Example& example, const ComparisonOptions& options, std::uint64_t hash,
+                 const Vec3d& scale, const std::string& engine, std::uint64_t seed) {
+  const RenderOptions& picture = options.picture;
   return {{"version", EXEMPLAR_VERSION},
           {"example", example.name()},
           {"samples", toJson(example.field().size())},
@@ -203,6 +219,10 @@ Json requestJson(const Example& example, const Vec3d& scale, const std::string& 
           {"scale", toJson(scale)},
           {"engine", engine},
           {"seed", seed},
+          {"picture",
+           {picture.width, picture.height, picture.samples, picture.view.azimuth,
+            picture.view.elevation}},
+          {"up", static_cast<int>(options.mesh.up)},
           {"parts", kParts}};
 }
 
@@ -212,6 +232,12 @@ std::optional<Json> finishedRun(const fs::path& file, const Json& request, const
   const Json run = Json::parse(readFile(file), nullptr, false);
   if (run.is_discarded() || !run.is_object() || run.value("request", Json()) != request)
     return std::nullopt;
+  const bool complete = run.value("status", "") == "complete";
+  for (const char* key : {"engine", "seed", "status"})
+    if (!run.contains(key)) return std::nullopt;
+  for (const char* key : {"seconds", "figures", "mesh", "picture", "field"})
+    if (complete && !run.contains(key)) return std::nullopt;
+  if (!complete && !run.contains("why")) return std::nullopt;
   for (const char* part : {"mesh", "picture", "field", "origins", "view"})
     if (run.contains(part) && !fs::exists(folder / run.at(part).get<std::string>()))
       return std::nullopt;
@@ -400,17 +426,22 @@ void compare(const Example& example, const ComparisonOptions& options,
   scaledSize(example.field().size(), scale, "samples");
   progress.report("drawing the example", 0);
   const TriangleMesh mesh = pictured(example.source, example.reading, progress.part(0, 0.02));
+  const auto wrote = [&](const fs::path& path) {
+    if (options.wrote) options.wrote(path);
+  };
   writePng(folder / "example.png", render(mesh, options.picture, progress.part(0.02, 0.04)));
+  wrote(folder / "example.png");
   const std::string view =
       exampleView(mesh, &example.field(), options.picture, kManyViews, progress.part(0.04, 0.06));
 
   Json comparison = comparisonHead(example, scale);
+  const std::uint64_t hash = hashOf(example);
   const std::size_t runs = options.engines.size() * static_cast<std::size_t>(options.seeds);
   std::size_t done = 0;
   for (int s = 0; s < options.seeds; ++s) {
     for (const ComparedEngine& compared : options.engines) {
       const std::uint64_t seed = options.firstSeed + static_cast<std::uint64_t>(s);
-      const Json request = requestJson(example, scale, compared.name, seed);
+      const Json request = requestJson(example, options, hash, scale, compared.name, seed);
       const fs::path file = folder / (runName(compared.name, seed) + ".json");
       std::optional<Json> run = finishedRun(file, request, folder);
       const bool again = run.has_value();
@@ -420,6 +451,7 @@ void compare(const Example& example, const ComparisonOptions& options,
         run = makeRun(example, options, compared, scale, seed, part);
         (*run)["request"] = request;
         writeFile(file, run->dump(2) + "\n");
+        wrote(file);
       }
       if (finished) finished(readable(*run, again));
       run->erase("request");

@@ -37,6 +37,8 @@ struct ComparisonOptions {
   int seeds = 3;
   RenderOptions picture;
   MeshFileOptions mesh;
+  /// Hears of files that were written, so that an interrupted comparison can say so.
+  std::function<void(const std::filesystem::path&)> wrote;
 };
 
 /// One run of a comparison, for people.

@@ -33,7 +33,7 @@ bool honors(const Engine& engine, std::string_view key) {
   }
   const std::string what =
       "`" + key + "`: the engine " + std::string(engine.name()) + " has no such setting";
-  if (having.empty()) throw InputError(what + "; no engine has");
+  if (having.empty()) throw InputError(what + "; no engine has it");
   throw InputError(what + "; " + joined(having, "and") + (having.size() == 1 ? " has" : " have"));
 }
 

@@ -24,6 +24,40 @@ SettingTable<ReadOptions>::Row meshUpRow() {
       {{"auto", UpAxis::Default}, {"y", UpAxis::Y}, {"z", UpAxis::Z}});
 }
 
+/// Warns of what was asked for and has no meaning for this kind of example.
+void warnOfUnused(Example& example) {
+  const ReadOptions& o = example.reading;
+  const SourceKind kind = example.kind;
+  const bool labels = o.form == Form::Labels;
+  const bool mesh = kind == SourceKind::Mesh, heights = kind == SourceKind::HeightMap;
+  const bool scene = kind == SourceKind::Scene || kind == SourceKind::Pieces;
+  const bool picture = kind == SourceKind::Picture;
+  const bool sampled = kind != SourceKind::Volume && kind != SourceKind::Labels && !picture;
+  const ReadOptions usual;
+  std::vector<std::string> unused;
+  const auto use = [&](const char* key, bool given, bool used) {
+    if (given && !used) unused.push_back("`" + std::string(key) + "`");
+  };
+  use("resolution", o.resolution.has_value(), sampled);
+  use("padding", o.padding.has_value(), !labels && (mesh || scene));
+  use("scene-seed", o.sceneSeed.has_value(), scene);
+  use("cell-size", o.cellSize.has_value(), heights);
+  use("height-scale", o.heightScale.has_value(), heights);
+  use("cell", o.cell.has_value(), labels && (mesh || scene));
+  use("air", o.air.has_value(), labels && (mesh || scene));
+  use("piece", o.image.piece != usual.image.piece, picture);
+  use("overlap", o.image.overlap, picture);
+  const bool blocks = std::holds_alternative<LabeledField>(example.content);
+  use("field-block", o.blocks.block != usual.blocks.block, blocks);
+  use("field-tolerance", o.blocks.tolerance != usual.blocks.tolerance, blocks);
+  use("field-overlap", o.blocks.overlap != usual.blocks.overlap, blocks);
+  if (!unused.empty()) {
+    example.warnings.push_back(example.name() + ": " + joined(unused, "and") +
+                               (unused.size() == 1 ? " has" : " have") +
+                               " no meaning for this kind of example");
+  }
+}
+
 }  // namespace
 
 const SettingTable<ReadOptions>& readingSettings(Form form) {
@@ -107,6 +141,7 @@ Example readExample(const Source& source, const ReadOptions& options, const Prog
   } else {
     readAsLabels(example, progress);
   }
+  warnOfUnused(example);
   progress.report("reading " + source.name(), 1);
   return example;
 }

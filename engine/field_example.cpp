@@ -119,7 +119,10 @@ void readAsField(Example& example, const Progress& progress) {
       break;
     case SourceKind::Labels:
     case SourceKind::Picture:
-      throw InputError(example.name() + ": labels have no distances; they need the engine model");
+      throw InputError(example.name() +
+                       ": a grid of labels, where distances are needed (of a mesh, a volume or a "
+                       "height map); the engine "
+                       "model takes labels");
   }
   example.description += " at " + readableSize(example.field().size(), "samples");
 }

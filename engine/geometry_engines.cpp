@@ -251,6 +251,8 @@ class VotingEngine final : public FieldEngine {
                     const Progress& progress) const override {
     VotingOptions options;
     votingTable().apply(request.settings, options);
+    if (request.settings.has("guide-weight") && !request.guide)
+      throw InputError("`guide-weight`: there is no `guide` to weigh");
     options.size = fieldSize(examples, request);
     options.seed = request.seed;
     options.periodic = request.periodic;

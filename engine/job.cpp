@@ -49,8 +49,9 @@ void Job::start(std::vector<Example> examples, Request request, const Engine& en
 
 void Job::start(std::function<Result(const Progress&)> work) {
   if (work_) throw std::logic_error("Job::start: its last result was not taken");
-  work_ = std::make_unique<Work>();
-  work_->thread = std::thread([work = std::move(work), state = work_.get()] { state->run(work); });
+  auto begun = std::make_unique<Work>();
+  begun->thread = std::thread([work = std::move(work), state = begun.get()] { state->run(work); });
+  work_ = std::move(begun);
 }
 
 JobState Job::poll() const {

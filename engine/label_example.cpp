@@ -105,6 +105,11 @@ void describe(Example& example) {
   for (int axis = 0; axis < 3; ++axis) {
     if (grid.size()[axis] == 1) example.hints.scale[axis] = 1;
   }
+  if (grid.cells.count() == 1 && std::holds_alternative<LabeledField>(example.content)) {
+    example.warnings.push_back(example.name() +
+                               ": all of it is a single block, which can only be repeated; give a "
+                               "smaller `field-block`, or use the engine geometry");
+  }
   example.description = readableSize(grid.size(), "cells") + " of " +
                         withThousands(grid.labelCount()) + " labels, " + example.description;
 }
@@ -147,9 +152,8 @@ Example readSolid(const Source& source, const ReadOptions& options, const Progre
   const SourceKind kind = sourceKind(source);
   const bool heights = kind == SourceKind::HeightMap && lowerExtension(source.path()) != ".png";
   if (!heights && kind != SourceKind::Volume) return readExample(source, options, progress);
-  ReadOptions sampling;
+  ReadOptions sampling = options;
   sampling.form = Form::Field;
-  sampling.resolution = options.resolution;
   Example example = readExample(source, sampling, progress);
   const DistanceField& field = example.field();
   LabelGrid grid;
@@ -185,10 +189,15 @@ void numberAlike(std::vector<Example>& examples) {
   auto& grid = std::get<LabelGrid>(first.data);
   for (std::size_t n = 1; n < examples.size(); ++n) {
     Example& next = examples[n];
-    if (std::holds_alternative<ModelPieces>(next.content) ||
-        std::holds_alternative<ModelPieces>(first.content)) {
+    // Pieces and blocks of one example are not those of another.
+    const auto isOwn = [](const Example& example) {
+      return std::holds_alternative<ModelPieces>(example.content) ||
+             std::holds_alternative<LabeledField>(example.content);
+    };
+    if (isOwn(next) || isOwn(first)) {
       throw InputError(next.name() +
-                       ": several examples should be label grids or pictures, not meshes");
+                       ": several examples should be label grids or pictures, not meshes, volumes "
+                       "or height maps");
     }
     auto& other = std::get<LabelGrid>(next.data);
     const std::string ending = lowerExtension(next.source.path());

@@ -35,6 +35,22 @@ Statistics statisticsOf(const ModelResult& made, const Example& example, const V
           {"exact_solver_calls", s.exact}};
 }
 
+/// Refuses settings of a method that is not the one.
+void checkMethod(const Settings& given, const ModelSettings& settings) {
+  const ModelMethod method = settings.options.method;
+  if (method == ModelMethod::Whole) {
+    for (const char* key : {"block", "rounds", "metropolis", "patience"})
+      if (given.has(key))
+        throw InputError("`" + std::string(key) + "`: `method` whole has no blocks; leave it out");
+  }
+  if (method == ModelMethod::Blocks && given.has("patience"))
+    throw InputError("`patience`: only `method` auto has it");
+  if (given.has("mirrored-x") && !settings.mirror.x && settings.options.symmetry.turns == 1)
+    throw InputError("`mirrored-x`: has no effect without `mirror` x");
+  if (given.has("mirrored-y") && !settings.mirror.y && settings.options.symmetry.turns == 1)
+    throw InputError("`mirrored-y`: has no effect without `mirror` y");
+}
+
 class ModelEngine final : public Engine {
  public:
   std::string_view name() const override { return "model"; }
@@ -64,6 +80,7 @@ class ModelEngine final : public Engine {
     if (settings.options.loop && !settings.frames)
       throw InputError("`loop`: only what changes over time does; say how many `frames`");
     const ModelOptions options = modelOptions(request, settings, examples.front());
+    checkMethod(request.settings, settings);
     const Adjacency adjacency = adjacencyOf(examples, adjacencyOptions(settings));
     std::vector<LabelGrid> grids;
     for (const Example& example : examples) grids.push_back(example.labels());

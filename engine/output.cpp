@@ -64,8 +64,10 @@ Written writeFrames(const fs::path& path, const Result& result, const Example& e
     writeGif(path, images);
     return {"written", path.string() + ": " + std::to_string(frames.size()) + " frames", {}};
   }
-  for (std::size_t n = 0; n < frames.size(); ++n)
+  for (std::size_t n = 0; n < frames.size(); ++n) {
     writeLabels(framePath(path, n), *frames[n], example, options, share(n));
+    if (options.wrote) options.wrote(framePath(path, n));
+  }
   return {"written",
           framePath(path, 0).string() + " to " + framePath(path, frames.size() - 1).string(),
           {}};
@@ -112,8 +114,11 @@ void requireOutput(const fs::path& path, const std::string& endings) {
   const OutputFile probe(path);
 }
 
-void requireOutputFits(const fs::path& path, Form form, const Vec3i& size, int frames) {
+void requireOutputFits(const fs::path& path, Form form, const Vec3i& size, int frames,
+                       bool instances) {
   if (form == Form::Field) return;
+  if (instances && !endsWith(path, ".glb"))
+    throw InputError("`instances`: only a .glb has instances, not " + path.string());
   if (endsWith(path, ".gif") && frames == 0) {
     throw InputError(path.string() +
                      ": only what changes over time becomes one; say how many "

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -31,12 +32,15 @@ inline constexpr const char* kLabelOutputEndings =
 void requireOutput(const std::filesystem::path& path, const std::string& endings);
 /// Refuses an output that cannot hold a result of `size` (a picture has one layer) and of so many
 /// frames, 0 for one that does not change over time.
-void requireOutputFits(const std::filesystem::path& path, Form form, const Vec3i& size, int frames);
+void requireOutputFits(const std::filesystem::path& path, Form form, const Vec3i& size, int frames,
+                       bool instances);
 
 struct OutputOptions {
   MeshFileOptions mesh;
   bool instances = false;  ///< a .glb of model pieces: write each piece once and place it
   RenderOptions picture;   ///< of the frames of a .gif that is not flat
+  /// Hears of each file of a sequence of frames, once it is written.
+  std::function<void(const std::filesystem::path&)> wrote;
 };
 
 /// Whether writing to the path takes the result's surface.

@@ -94,6 +94,8 @@ void requireSurface(const SurfaceOptions& options, std::span<const Example> exam
 
 Surface realize(const Result& result, std::span<const Example> examples,
                 const SurfaceOptions& options, const Progress& progress) {
+  if (result.outcome != Outcome::Complete)
+    throw InputError("there is no result to make a surface of: " + result.why);
   requireSurface(options, examples);
   if (result.form() == Form::Field) {
     return options.surface == SurfaceKind::Copy ? copied(result, examples, progress)

@@ -48,6 +48,12 @@ SourceKind sourceKind(const Source& source) {
   if (isHeightMapFile(path)) return SourceKind::HeightMap;
   if (isLabelFile(path)) return SourceKind::Labels;
   if (ending == ".jpg" || ending == ".jpeg") return SourceKind::Picture;
+  if (source.inMemory<std::string>() && ending == ".vdb")
+    throw InputError(source.name() + ": a .vdb is read from a file, not from bytes");
+  if (source.inMemory<std::string>() && ending == ".toml") {
+    const Scene scene = readScene(*source.inMemory<std::string>(), source.name(), {});
+    return scene.cell ? SourceKind::Pieces : SourceKind::Scene;
+  }
   if (ending == ".toml") return isPieceScene(path) ? SourceKind::Pieces : SourceKind::Scene;
   if (ending == ".vdb") return holdsLabels(path) ? SourceKind::Labels : SourceKind::Volume;
   throw InputError(source.name() + ": not a kind of example; use " + kExampleEndings);

@@ -30,7 +30,7 @@ class Source {
   Source(std::filesystem::path path) : path_(std::move(path)) {}
   Source(const char* path) : path_(path) {}
   Source(const std::string& path) : path_(path) {}
-  /// What a file of this name would hold; the ending says the format.
+  /// What a file of this name would hold; the ending says the format, any but .vdb.
   static Source ofBytes(std::string bytes, std::filesystem::path name) {
     return Source(std::move(name), Content(std::move(bytes)));
   }

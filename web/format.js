@@ -95,7 +95,9 @@ const kMain = [
 /// What is known of engines by the first word of their name; settings may follow after a colon.
 const kEngines = {
   blocks: { says: 'geometry synthesis by best-matching blocks', color: 0, mark: 'square' },
-  optimize: { says: 'geometry synthesis by patch optimization', color: 1, mark: 'circle' },
+  geometry: { says: 'geometry synthesis by quilting, or by voting', color: 1, mark: 'circle' },
+  quilting: { says: 'geometry synthesis by large pieces joined by cuts', color: 4, mark: 'circle' },
+  voting: { says: 'geometry synthesis by patches matched and voted', color: 5, mark: 'circle' },
   model: { says: 'model synthesis by adjacency', color: 2, mark: 'triangle' },
   overlap: { says: 'model synthesis on overlapping blocks', color: 3, mark: 'diamond' },
 };

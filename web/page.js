@@ -136,7 +136,7 @@ function wipeSection(page, board) {
     board.forget(place);
     const runs = complete();
     if (!runs.length) return place.replaceChildren(h('p', { class: 'quiet' }, 'No engine completed with this seed.'));
-    const run = runs.find((r) => r.engine === engine) || runs.find((r) => r.engine === 'optimize') || runs[0];
+    const run = runs.find((r) => r.engine === engine) || runs.find((r) => r.engine === 'geometry') || runs[0];
     engine = run.engine;
     place.replaceChildren(
       runs.length > 1 ? h('div', { class: 'controls' }, segments('Result', Object.fromEntries(runs.map((r) => [r.engine, r.engine])), engine, (value) => { engine = value; draw(); })) : '',

@@ -210,6 +210,14 @@ inline bool Catalog::update(int cell, int from, const LabelWord* set, const Labe
   return true;
 }
 
+namespace {
+
+/// A mask of steps between two looks at whether to stop: a step scans words by the thousand where
+/// labels are many.
+constexpr std::int64_t stepsBetweenChecks(int words) { return words > 64 ? 0xF : 0x3FFF; }
+
+}  // namespace
+
 template <int W>
 bool Catalog::run(const Progress& progress) {
   const int words = W > 0 ? W : words_;
@@ -220,7 +228,7 @@ bool Catalog::run(const Progress& progress) {
     ++head_, --waiting_;
     const std::uint8_t skip = queuedFrom_[cell];
     queuedFrom_[cell] = kIdle;
-    if ((++steps_ & 0x3FFF) == 0) progress.check();
+    if ((++steps_ & stepsBetweenChecks(words)) == 0) progress.check();
     const LabelWord* source = domains_.data() + static_cast<std::size_t>(cell) * words;
     LabelWord fixed[W > 0 ? W : 1];
     LabelWord* mine = W > 0 ? fixed : set.data();

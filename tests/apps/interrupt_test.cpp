@@ -125,6 +125,17 @@ TEST(Interrupt, OfModelSynthesisAndItsMesh) {
       3);
 }
 
+TEST(Interrupt, OfAComparisonSaysWhatIsInTheFolder) {
+  const TestFolder folder;
+  const CommandResult run = interruptExemplar(
+      {"compare", scene("chainmail"), "-o", ".", "--engines", "geometry", "--resolution", "32",
+       "--size", "40x30", "--samples", "1", "--seeds", "50"},
+      folder.path(), SIGINT, std::chrono::milliseconds(2500));
+  EXPECT_EQ(run.status, 4);
+  const std::string text = eventsOf(run.err).back().at("text");
+  EXPECT_EQ(text.find("no file was written") != text.npos, folder.files().empty()) << text;
+}
+
 TEST(Interrupt, OfAPicture) {
   const TestFolder folder;
   EXPECT_GT(

@@ -179,6 +179,48 @@ TEST(SynthCommand, OptionsAreCheckedBeforeAFileIsRead) {
   }
 }
 
+TEST(SynthCommand, NothingIsOverwrittenThatIsReadOrWrittenAlready) {
+  const TestFolder folder;
+  ASSERT_EQ(runExemplar("scene balls -o e.ply", folder.path()).status, 0);
+  const std::string before = readFile(folder / "e.ply");
+  for (const std::string outputs :
+       {"-o e.ply", "-o ./e.ply", "-o o.vdb --origins o.vdb", "-o o.png --preview ./o.png"}) {
+    const auto run = runExemplar("synth e.ply " + outputs, folder.path());
+    EXPECT_EQ(run.status, 2) << outputs;
+    EXPECT_THAT(run.err, testing::HasSubstr("is read or written already")) << outputs;
+  }
+  EXPECT_EQ(folder.files(), "e.ply");
+  EXPECT_EQ(readFile(folder / "e.ply"), before);
+}
+
+TEST(SynthCommand, SaysWhichSettingsHaveNoMeaningForTheExample) {
+  const TestFolder folder;
+  ASSERT_EQ(
+      runExemplar("sdf " + scene("balls") + " --resolution 24 -o e.vdb", folder.path()).status, 0);
+  const auto run =
+      runExemplar("synth e.vdb --resolution 99 --padding 3 -o o.vdb --stats s.json", folder.path());
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string says =
+      "e.vdb: --resolution and --padding have no meaning for this kind of example";
+  EXPECT_THAT(run.err, testing::HasSubstr("warning: " + says));
+  EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s.json"))["warnings"][0], says);
+}
+
+TEST(SynthCommand, ProgramsGetJsonFromTheFirstErrorToTheLastFile) {
+  const TestFolder folder;
+  const auto last = [&](const std::string& arguments) {
+    const auto run = runExemplar(arguments + " --progress json", folder.path());
+    const std::size_t end = run.err.find_last_not_of('\n');
+    const std::size_t begin = run.err.rfind('\n', end);
+    return nlohmann::json::parse(run.err.substr(begin + 1));
+  };
+  EXPECT_EQ(last("synth e.obj --frobnicate")["event"], "error");
+  EXPECT_EQ(last("synth e.obj -o o.obj")["status"], 2);
+  EXPECT_EQ(last("scene balls -o e.ply")["event"], "done");
+  EXPECT_EQ(last("sdf e.ply --resolution 16 -o e.vdb")["event"], "done");
+  EXPECT_EQ(last("engines")["event"], "done");
+}
+
 TEST(EnginesCommand, ListsEveryEngineAndSettingForProgramsToo) {
   const TestFolder folder;
   const auto text = runExemplar("engines", folder.path());

@@ -114,7 +114,7 @@ TEST(Engines, WhatAnEngineDoesNotHaveIsRefusedNamingThoseThatDo) {
       [] {
         checkSettings(modelEngine(), {{"unheard-of", "1"}});
       },
-      ThrowsMessage<InputError>(HasSubstr("no engine has")));
+      ThrowsMessage<InputError>(HasSubstr("no engine has it")));
   EXPECT_THAT(
       [] {
         checkSettings(modelEngine(), {{"rounds", "1"}, {"rounds", "2"}});
@@ -212,6 +212,21 @@ TEST(GeometryEngine, WhatIsKeptIsTheExamplesToTheBit) {
   request.decided.keep = Source::of(half);
   EXPECT_THAT([&] { runOn(geometryEngine(), example, request); },
               ThrowsMessage<InputError>(HasSubstr("`keep`: no sample of the example is inside")));
+}
+
+TEST(Engines, RefuseSettingsThatWouldDoNothing) {
+  const Example field = readExample(Source::of(bumps())), labels = readExample(Source::of(rings()));
+  Request request = smallRequest(geometryEngine());
+  request.settings = {{"guide-weight", "3"}};
+  EXPECT_THAT([&] { runOn(geometryEngine(), field, request); },
+              ThrowsMessage<InputError>(HasSubstr("there is no `guide` to weigh")));
+  request = smallRequest(modelEngine());
+  request.settings = {{"method", "whole"}, {"block", "5"}};
+  EXPECT_THAT([&] { runOn(modelEngine(), labels, request); },
+              ThrowsMessage<InputError>(HasSubstr("`block`: `method` whole has no blocks")));
+  request.settings = {{"mirrored-x", "5=7"}};
+  EXPECT_THAT([&] { runOn(modelEngine(), labels, request); },
+              ThrowsMessage<InputError>(HasSubstr("has no effect without `mirror` x")));
 }
 
 TEST(BlocksEngine, EverySearchGivesTheSameResult) {

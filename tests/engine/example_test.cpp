@@ -64,7 +64,7 @@ TEST(ReadExample, TheFormFollowsFromTheKindAndCanBeChosen) {
       readExample(Source::of(boxes()), {.form = Form::Labels, .cell = Vec3d{1, 1, 1}});
   EXPECT_TRUE(std::holds_alternative<ModelPieces>(pieces.content));
   EXPECT_THAT([] { readExample(Source::of(rings()), {.form = Form::Field}); },
-              ThrowsMessage<InputError>(HasSubstr("labels have no distances")));
+              ThrowsMessage<InputError>(HasSubstr("a grid of labels, where distances are needed")));
 }
 
 TEST(ReadExample, WhatIsNoExampleIsNamed) {

@@ -55,7 +55,7 @@ for (let y = 0; y < 32; ++y) {
 const example = 'hills <b> & "x\'.pgm';
 writeFileSync(example, pgm);
 const small = ['--cell-size', '1', '--height-scale', '0.2', '--size', '320x240', '--samples', '16', '-q'];
-run('compare', example, '-o', 'made', '--seeds', '2', '--engines', 'blocks,optimize', '--scale', '1.5,1,1', ...small);
+run('compare', example, '-o', 'made', '--seeds', '2', '--engines', 'blocks,geometry', '--scale', '1.5,1,1', ...small);
 const comparison = JSON.parse(readFileSync('made/compare.json', 'utf8'));
 const url = (path) => `file://${encodeURI(join(folder, path))}`;
 
@@ -334,7 +334,7 @@ const pasted = async () => {
 };
 const holdsFigures = (text) => {
   const rows = new Map(text.trim().split('\n').map((line) => [line.split('\t')[0], line.split('\t').slice(1)]));
-  return ['blocks', 'optimize'].every((engine, n) =>
+  return ['blocks', 'geometry'].every((engine, n) =>
     near(parseFloat((rows.get('likeness.lp_dense') || [])[n]), mean(engine, 'likeness', 'lp_dense'), 6e-4));
 };
 const copied = await pasted();
