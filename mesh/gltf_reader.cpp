@@ -82,22 +82,50 @@ class Joiner {
     std::array<float, 4> color;
     bool operator==(const Key&) const = default;
   };
-  struct Hash {
-    std::size_t operator()(const Key& k) const {
-      std::uint64_t h = 0;
-      const auto mix = [&](std::uint64_t bits) {
-        h = (h ^ bits) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 29;
-      };
-      for (const double c : {k.position.x, k.position.y, k.position.z}) {
-        mix(std::bit_cast<std::uint64_t>(c + 0.0));
-      }
-      for (const float c : k.color) mix(std::bit_cast<std::uint32_t>(c + 0.0f));
-      return h;
-    }
-  };
 
-  std::unordered_map<Key, std::uint32_t, Hash> indexOf;
+  /// Makes room for so many more pairs.
+  void reserve(std::size_t more) {
+    const std::size_t slots = std::bit_ceil(2 * (keys_.size() + more) + 1);
+    if (slots <= slots_.size()) return;
+    slots_.assign(slots, kNone);
+    for (std::uint32_t i = 0; i < keys_.size(); ++i) slots_[slotOf(keys_[i].first)] = i;
+  }
+
+  /// The vertex of a pair, which becomes `next` where it has none yet.
+  std::uint32_t add(const Key& key, std::uint32_t next) {
+    if (2 * (keys_.size() + 1) > slots_.size()) reserve(keys_.size() + 1);
+    std::uint32_t& slot = slots_[slotOf(key)];
+    if (slot == kNone) {
+      slot = static_cast<std::uint32_t>(keys_.size());
+      keys_.push_back({key, next});
+    }
+    return keys_[slot].second;
+  }
+
+ private:
+  /// Where a pair is in the table, or the free slot where it would be.
+  std::size_t slotOf(const Key& key) const {
+    std::size_t slot = hash(key) & (slots_.size() - 1);
+    while (slots_[slot] != kNone && !(keys_[slots_[slot]].first == key))
+      slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
+  }
+
+  static std::uint64_t hash(const Key& k) {
+    std::uint64_t h = 0;
+    const auto mix = [&](std::uint64_t bits) {
+      h = (h ^ bits) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 29;
+    };
+    for (const double c : {k.position.x, k.position.y, k.position.z}) {
+      mix(std::bit_cast<std::uint64_t>(c + 0.0));
+    }
+    for (const float c : k.color) mix(std::bit_cast<std::uint32_t>(c + 0.0f));
+    return h ^ (h >> 32);
+  }
+
+  std::vector<std::pair<Key, std::uint32_t>> keys_;
+  std::vector<std::uint32_t> slots_;  ///< indices of keys_, open addressing
 };
 
 class GltfReader {
@@ -660,7 +688,7 @@ class GltfReader {
                                          const std::vector<Transform>& joints, Joiner& joiner) {
     std::vector<std::uint32_t> vertexOf;
     vertexOf.reserve(set.positions.size());
-    if (set.join) joiner.indexOf.reserve(joiner.indexOf.size() + set.positions.size());
+    if (set.join) joiner.reserve(set.positions.size());
     if (!set.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), {1, 1, 1, 1});
     for (std::size_t v = 0; v < set.positions.size(); ++v) {
       if (v % 16384 == 0) source_.progress.check();
@@ -676,12 +704,11 @@ class GltfReader {
         continue;
       }
       if (v < set.originals) {
-        joiner.indexOf.try_emplace({p, color}, next);
+        joiner.add({p, color}, next);
         vertexOf.push_back(next);
       } else if (set.join) {
-        const auto [found, added] = joiner.indexOf.try_emplace({p, color}, next);
-        vertexOf.push_back(found->second);
-        if (!added) continue;
+        vertexOf.push_back(joiner.add({p, color}, next));
+        if (vertexOf.back() != next) continue;
       } else {
         vertexOf.push_back(next);
       }
