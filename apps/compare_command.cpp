@@ -56,6 +56,8 @@ void compareEngines(const Options& options, Terminal& terminal) {
   }
   comparison.folder = options.folder;
   comparison.picture = renderOptions(options.picture);
+  Warnings ofPictures;
+  comparison.picture.warnings = &ofPictures;
   comparison.firstSeed = options.firstSeed;
   comparison.seeds = options.seeds;
   comparison.scale = requestOf(options.settings).extent.scale;
@@ -68,6 +70,7 @@ void compareEngines(const Options& options, Terminal& terminal) {
   compare(
       example, comparison, [&](const ComparedRun& run) { say(run, terminal); },
       terminal.progress().part(0.1, 1));
+  for (const std::string& warning : ofPictures) terminal.warn(warning);
   for (const auto& [label, name] :
        {std::pair{"figures", "compare.json"}, {"report", "report.html"}}) {
     const std::string path = (comparison.folder / name).string();

@@ -43,7 +43,7 @@ void writeReport(const Options& options, const Example& example, const Measured&
 void measureFiles(const Options& options, Terminal& terminal) {
   if (!options.json.empty() && options.json != "-") requireOutput(options.json, ".json");
   if (!options.report.empty()) requireOutput(options.report, ".html");
-  const RenderOptions picture = renderOptions(options.picture);
+  RenderOptions picture = renderOptions(options.picture);
   const Request request = requestOf(options.settings);
   const Progress& progress = terminal.progress();
   const Example example =
@@ -65,7 +65,10 @@ void measureFiles(const Options& options, Terminal& terminal) {
     }
   }
   if (!options.report.empty()) {
+    Warnings ofPictures;
+    picture.warnings = &ofPictures;
     writeReport(options, example, measured, all, picture, progress.part(0.7, 1));
+    for (const std::string& warning : ofPictures) terminal.warn(warning);
     if (options.json != "-") terminal.wrote("report", options.report, options.report);
   }
 }

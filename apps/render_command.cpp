@@ -32,7 +32,9 @@ Command addRenderCommand(CLI::App& app) {
 
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             requireOutput(options->output, ".png");
-            const RenderOptions picture = renderOptions(options->picture);
+            RenderOptions picture = renderOptions(options->picture);
+            Warnings ofPictures;
+            picture.warnings = &ofPictures;
             ReadOptions reading = readingOf(options->settings, Form::Field);
             std::vector<TriangleMesh> meshes;
             const auto count = static_cast<double>(options->examples.size());
@@ -44,6 +46,7 @@ Command addRenderCommand(CLI::App& app) {
             writePng(options->output,
                      renderSideBySide(meshes, picture, terminal.progress().part(0.5, 1)));
             terminal.wrote("picture", options->output, options->output);
+            for (const std::string& warning : ofPictures) terminal.warn(warning);
           }};
 }
 

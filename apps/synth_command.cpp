@@ -244,6 +244,7 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
     writeReport(options, plan, examples, result, *surface, times.synthesis, progress.part(0.95, 1));
     terminal.wrote("report", options.report, options.report);
   }
+  for (const std::string& warning : *plan.picture.warnings) terminal.warn(warning);
   if (!options.stats.empty()) {
     writeStats(options, result, surface, times, terminal);
     terminal.wrote("stats", options.stats, options.stats);
@@ -253,7 +254,9 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
 /// The main path, from file to file.
 void synth(const Options& options, Terminal& terminal) {
   Times times;
-  const Plan plan = planOf(options);
+  Plan plan = planOf(options);
+  Warnings ofPictures;
+  plan.picture.warnings = plan.output.picture.warnings = &ofPictures;
 
   std::vector<Example> examples = read(options, plan, terminal);
   times.read = times.total.seconds();

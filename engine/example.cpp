@@ -58,6 +58,16 @@ void warnOfUnused(Example& example) {
   }
 }
 
+SettingTable<ReadOptions>::Row normalsRow() {
+  return choiceRow<ReadOptions, MeshNormals>(
+      "normals", [](ReadOptions& o) -> MeshNormals& { return o.mesh.normals; },
+      "normals in .glb, .gltf, .obj and .ply: with hard edges where faces meet at more than 40 "
+      "degrees, smooth everywhere, or none",
+      {{"crease", MeshNormals::Crease},
+       {"smooth", MeshNormals::Smooth},
+       {"none", MeshNormals::None}});
+}
+
 }  // namespace
 
 const SettingTable<ReadOptions>& readingSettings(Form form) {
@@ -85,7 +95,8 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       sceneSeed(),
       cellSize(),
       heightScale(),
-      meshUpRow()};
+      meshUpRow(),
+      normalsRow()};
   static const SettingTable<O> labels{
       settingRow<O>("cell", &O::cell, "side of a cell of a mesh, which cuts it into model pieces",
                     kAboveZero, "world units", "a scene's own"),
@@ -121,7 +132,8 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       sceneSeed(),
       cellSize(),
       heightScale(),
-      meshUpRow()};
+      meshUpRow(),
+      normalsRow()};
   return form == Form::Field ? field : labels;
 }
 

@@ -47,6 +47,10 @@ struct VertexSet {
   /// Whether equal vertices are to be joined: they were split for normals or texture coordinates,
   /// which belong to corners here, or never shared. Without a reason to split they stay apart.
   bool join = false;
+  /// Of a file of ours whose mesh has several vertices at one place: how many come before the first
+  /// copy (0: any vertex may be a copy), and whose the copies are that equal several.
+  std::size_t originals = 0;
+  std::unordered_map<std::size_t, std::size_t> copies;
 };
 
 struct Primitive {
@@ -78,22 +82,50 @@ class Joiner {
     std::array<float, 4> color;
     bool operator==(const Key&) const = default;
   };
-  struct Hash {
-    std::size_t operator()(const Key& k) const {
-      std::uint64_t h = 0;
-      const auto mix = [&](std::uint64_t bits) {
-        h = (h ^ bits) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 29;
-      };
-      for (const double c : {k.position.x, k.position.y, k.position.z}) {
-        mix(std::bit_cast<std::uint64_t>(c + 0.0));
-      }
-      for (const float c : k.color) mix(std::bit_cast<std::uint32_t>(c + 0.0f));
-      return h;
-    }
-  };
 
-  std::unordered_map<Key, std::uint32_t, Hash> indexOf;
+  /// Makes room for so many more pairs.
+  void reserve(std::size_t more) {
+    const std::size_t slots = std::bit_ceil(2 * (keys_.size() + more) + 1);
+    if (slots <= slots_.size()) return;
+    slots_.assign(slots, kNone);
+    for (std::uint32_t i = 0; i < keys_.size(); ++i) slots_[slotOf(keys_[i].first)] = i;
+  }
+
+  /// The vertex of a pair, which becomes `next` where it has none yet.
+  std::uint32_t add(const Key& key, std::uint32_t next) {
+    if (2 * (keys_.size() + 1) > slots_.size()) reserve(keys_.size() + 1);
+    std::uint32_t& slot = slots_[slotOf(key)];
+    if (slot == kNone) {
+      slot = static_cast<std::uint32_t>(keys_.size());
+      keys_.push_back({key, next});
+    }
+    return keys_[slot].second;
+  }
+
+ private:
+  /// Where a pair is in the table, or the free slot where it would be.
+  std::size_t slotOf(const Key& key) const {
+    std::size_t slot = hash(key) & (slots_.size() - 1);
+    while (slots_[slot] != kNone && !(keys_[slots_[slot]].first == key))
+      slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
+  }
+
+  static std::uint64_t hash(const Key& k) {
+    std::uint64_t h = 0;
+    const auto mix = [&](std::uint64_t bits) {
+      h = (h ^ bits) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 29;
+    };
+    for (const double c : {k.position.x, k.position.y, k.position.z}) {
+      mix(std::bit_cast<std::uint64_t>(c + 0.0));
+    }
+    for (const float c : k.color) mix(std::bit_cast<std::uint32_t>(c + 0.0f));
+    return h ^ (h >> 32);
+  }
+
+  std::vector<std::pair<Key, std::uint32_t>> keys_;
+  std::vector<std::uint32_t> slots_;  ///< indices of keys_, open addressing
 };
 
 class GltfReader {
@@ -361,7 +393,33 @@ class GltfReader {
       decodeUvs(primitive, *attributes, vertices.positions.size(), uvsOf, at);
       mesh.primitives.push_back(std::move(primitive));
     }
+    if (mesh.sets.size() == 1) readCopies(in_.element("meshes", index, place), mesh.sets[0]);
     return mesh;
+  }
+
+  /// Reads what `formatGlb` says of vertices that are no copies; nothing where it does not hold, as
+  /// after another program has changed the vertices.
+  static void readCopies(const Json& mesh, VertexSet& set) {
+    const auto extras = mesh.find("extras");
+    if (extras == mesh.end() || !extras->is_object()) return;
+    const auto count = extras->find("exemplarVertices"), copies = extras->find("exemplarCopies");
+    if (count == extras->end() || !count->is_number_unsigned()) return;
+    const std::uint64_t originals = count->get<std::uint64_t>();
+    if (originals > set.positions.size()) return;
+    std::unordered_map<std::size_t, std::size_t> copyOf;
+    if (copies != extras->end()) {
+      if (!copies->is_array() || copies->size() % 2 != 0) return;
+      for (std::size_t i = 0; i < copies->size(); i += 2) {
+        const Json &copy = (*copies)[i], &original = (*copies)[i + 1];
+        if (!copy.is_number_unsigned() || !original.is_number_unsigned()) return;
+        const auto c = copy.get<std::uint64_t>(), o = original.get<std::uint64_t>();
+        if (c < originals || c >= set.positions.size() || o >= originals) return;
+        if (set.positions[c] != set.positions[o]) return;
+        copyOf[c] = o;
+      }
+    }
+    set.originals = originals;
+    set.copies = std::move(copyOf);
   }
 
   VertexSet decodeSet(std::uint64_t position, std::optional<std::uint64_t> color,
@@ -630,6 +688,7 @@ class GltfReader {
                                          const std::vector<Transform>& joints, Joiner& joiner) {
     std::vector<std::uint32_t> vertexOf;
     vertexOf.reserve(set.positions.size());
+    if (set.join) joiner.reserve(set.positions.size());
     if (!set.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), {1, 1, 1, 1});
     for (std::size_t v = 0; v < set.positions.size(); ++v) {
       if (v % 16384 == 0) source_.progress.check();
@@ -640,10 +699,16 @@ class GltfReader {
       const std::array<float, 4> color =
           set.colors.empty() ? std::array<float, 4>{1, 1, 1, 1} : set.colors[v];
       const std::uint32_t next = static_cast<std::uint32_t>(mesh_.positions.size());
-      if (set.join) {
-        const auto [found, added] = joiner.indexOf.try_emplace({p, color}, next);
-        vertexOf.push_back(found->second);
-        if (!added) continue;
+      if (const auto copy = set.copies.find(v); copy != set.copies.end()) {
+        vertexOf.push_back(vertexOf[copy->second]);
+        continue;
+      }
+      if (v < set.originals) {
+        joiner.add({p, color}, next);
+        vertexOf.push_back(next);
+      } else if (set.join) {
+        vertexOf.push_back(joiner.add({p, color}, next));
+        if (vertexOf.back() != next) continue;
       } else {
         vertexOf.push_back(next);
       }

@@ -34,68 +34,19 @@ void appendLittle(std::string& out, float value) {
   appendLittle(out, std::bit_cast<std::uint32_t>(value));
 }
 
-/// The vertices of the file: those of the mesh that triangles use, in their order, and behind them
-/// copies of the ones that have several texture coordinates.
-struct SplitVertices {
-  std::vector<std::uint32_t> source;  ///< each one's vertex in the mesh
-  std::vector<Vec2f> uvs;             ///< as many, or none
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
-SplitVertices splitVertices(const TriangleMesh& mesh, const Progress& progress) {
-  SplitVertices out;
-  std::vector<std::uint32_t> first(mesh.positions.size(), kNone);
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) first[v] = 0;
-  }
-  for (std::size_t v = 0; v < first.size(); ++v) {
-    if (first[v] == kNone) continue;
-    first[v] = static_cast<std::uint32_t>(out.source.size());
-    out.source.push_back(static_cast<std::uint32_t>(v));
-  }
-  out.triangles.reserve(mesh.triangles.size());
-  if (!mesh.hasUvs()) {
-    for (const auto& [a, b, c] : mesh.triangles)
-      out.triangles.push_back({first[a], first[b], first[c]});
-    return out;
-  }
-  // Copies of one vertex form a list: next[i] is the copy after vertex i of the file.
-  out.uvs.resize(out.source.size());
-  std::vector<bool> hasUv(out.source.size(), false);
-  std::vector<std::uint32_t> next(out.source.size(), kNone);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (t % 16384 == 0) progress.check();
-    auto& triangle = out.triangles.emplace_back();
-    for (int c = 0; c < 3; ++c) {
-      const std::uint32_t v = mesh.triangles[t][c];
-      const Vec2f uv = mesh.uvs[t][c];
-      std::uint32_t i = first[v];
-      if (!hasUv[i]) {
-        hasUv[i] = true;
-        out.uvs[i] = uv;
-      }
-      while (out.uvs[i] != uv && next[i] != kNone) i = next[i];
-      if (out.uvs[i] != uv) {
-        next[i] = static_cast<std::uint32_t>(out.source.size());
-        i = next[i];
-        out.source.push_back(v);
-        out.uvs.push_back(uv);
-        next.push_back(kNone);
-        hasUv.push_back(true);
-      }
-      triangle[c] = i;
-    }
-  }
-  return out;
-}
-
 float unit(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 
 class GlbWriter {
  public:
   /// Materials and textures are those of `mesh`, and so are the triangles where there are no parts.
-  GlbWriter(const TriangleMesh& mesh, bool yUp, bool plain, const Progress& progress)
-      : mesh_(mesh), part_(&mesh), yUp_(yUp), plain_(plain), progress_(progress) {
+  GlbWriter(const TriangleMesh& mesh, bool yUp, MeshNormals normals, bool plain,
+            const Progress& progress)
+      : mesh_(mesh),
+        part_(&mesh),
+        yUp_(yUp),
+        normals_(normals),
+        plain_(plain),
+        progress_(progress) {
     // Floats are finest near 0: a mesh far from there is moved to it, and its nodes move it back.
     if (floatRounding(mesh) > kVisibleRounding) offset_ = roundedCenter(boundingBox(mesh));
   }
@@ -225,6 +176,46 @@ class GlbWriter {
     return accessor;
   }
 
+  int addNormals(const std::vector<Vec3f>& normals) {
+    const std::size_t begin = binary_.size();
+    for (const Vec3f& normal : normals) {
+      const Vec3d n = toFileAxes(cast<double>(normal), yUp_);
+      for (const double c : {n.x, n.y, n.z}) appendLittle(binary_, static_cast<float>(c));
+    }
+    return addAccessor(endView(begin, kVertices), kFloat, normals.size(), "VEC3");
+  }
+
+  /// Readers join equal vertices again. Where the mesh itself has several vertices at one place, as
+  /// where parts touch, `extras` says how many vertices are no copies, and of which vertices those
+  /// copies are that equal several.
+  void addCopies(Json& json, const SplitVertices& vertices) const {
+    if (vertices.normals.empty() && vertices.uvs.empty()) return;  // nothing is joined
+    std::vector<Vec3d> places;
+    places.reserve(vertices.originals);
+    for (std::size_t i = 0; i < vertices.originals; ++i)
+      places.push_back(cast<double>(cast<float>(part_->positions[vertices.source[i]] - offset_)));
+    progress_.check();
+    const std::vector<std::uint32_t> first = firstOfEqual(places);
+    std::vector<bool> ambiguous(vertices.originals, false);
+    bool any = false;
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+      if (first[i] == i) continue;
+      ambiguous[i] = ambiguous[first[i]] = any = true;
+    }
+    if (!any) return;
+    std::vector<std::uint32_t> originalOf(part_->positions.size(), 0);
+    for (std::uint32_t i = 0; i < vertices.originals; ++i) originalOf[vertices.source[i]] = i;
+    Json copies = Json::array();
+    for (std::size_t i = vertices.originals; i < vertices.source.size(); ++i) {
+      const std::uint32_t original = originalOf[vertices.source[i]];
+      if (!ambiguous[original]) continue;
+      copies.push_back(i);
+      copies.push_back(original);
+    }
+    json["extras"] = {{"exemplarVertices", vertices.originals}};
+    if (!copies.empty()) json["extras"]["exemplarCopies"] = std::move(copies);
+  }
+
   int addColors(const std::vector<std::uint32_t>& source) {
     const std::size_t begin = binary_.size();
     const int channels = hasAlpha() ? 4 : 3;
@@ -251,11 +242,15 @@ class GlbWriter {
 
   /// A mesh of the file: one primitive for each material, all with the same vertices.
   Json addPrimitives() {
-    const SplitVertices vertices = splitVertices(*part_, progress_);
+    const Progress computing = part_ == &mesh_ ? progress_.part(0, 0.4) : Progress{};
+    const SplitVertices vertices =
+        splitVertices(*part_, shadingNormals(*part_, normals_, computing), {}, progress_);
     progress_.check();
     binary_.reserve(binary_.size() + vertices.source.size() * (part_->hasColors() ? 28 : 12) +
-                    vertices.uvs.size() * 8 + vertices.triangles.size() * 12);
+                    vertices.normals.size() * 12 + vertices.uvs.size() * 8 +
+                    vertices.triangles.size() * 12);
     Json attributes{{"POSITION", addPositions(vertices.source)}};
+    if (!vertices.normals.empty()) attributes["NORMAL"] = addNormals(vertices.normals);
     if (part_->hasColors()) attributes["COLOR_0"] = addColors(vertices.source);
     if (part_->hasUvs()) {
       const std::size_t begin = binary_.size();
@@ -292,7 +287,9 @@ class GlbWriter {
           {{"attributes", attributes}, {"indices", indices}, {"material", materialOf_[m]}});
       offset += 12 * triangles.size();
     }
-    return {{"primitives", std::move(primitives)}};
+    Json json{{"primitives", std::move(primitives)}};
+    addCopies(json, vertices);
+    return json;
   }
 
   void addMaterials() {
@@ -386,6 +383,7 @@ class GlbWriter {
   const TriangleMesh* part_;  // what is being written: the mesh, or a part of it
   Vec3d offset_{};            // world space: what is taken off positions and given to nodes
   bool yUp_;
+  MeshNormals normals_;
   bool plain_;  // JSON alone rather than a binary container
   Progress progress_;
   std::size_t meshes_ = 0;  // meshes of the file so far
@@ -399,17 +397,19 @@ class GlbWriter {
 
 }  // namespace
 
-std::string formatGlb(const TriangleMesh& mesh, bool yUp, const Progress& progress) {
-  return GlbWriter(mesh, yUp, false, progress).write();
+std::string formatGlb(const TriangleMesh& mesh, bool yUp, MeshNormals normals,
+                      const Progress& progress) {
+  return GlbWriter(mesh, yUp, normals, false, progress).write();
 }
 
-std::string formatGltf(const TriangleMesh& mesh, bool yUp, const Progress& progress) {
-  return GlbWriter(mesh, yUp, true, progress).write();
+std::string formatGltf(const TriangleMesh& mesh, bool yUp, MeshNormals normals,
+                       const Progress& progress) {
+  return GlbWriter(mesh, yUp, normals, true, progress).write();
 }
 
 std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp,
-                      const Progress& progress) {
-  return GlbWriter(mesh, yUp, false, progress).write(instances);
+                      MeshNormals normals, const Progress& progress) {
+  return GlbWriter(mesh, yUp, normals, false, progress).write(instances);
 }
 
 }  // namespace exemplar

@@ -133,16 +133,16 @@ void writeMesh(const fs::path& path, const TriangleMesh& mesh, const MeshFileOpt
              ".glb to keep them");
   }
   if (format != Format::Obj) {
-    out.write(format == Format::Ply   ? formatPly(mesh, yUp, formatting)
+    out.write(format == Format::Ply   ? formatPly(mesh, yUp, options.normals, formatting)
               : format == Format::Stl ? formatStl(mesh, yUp, formatting)
               : format == Format::Off ? formatOff(mesh, yUp, formatting)
-              : format == Format::Glb ? formatGlb(mesh, yUp, formatting)
-                                      : formatGltf(mesh, yUp, formatting),
+              : format == Format::Glb ? formatGlb(mesh, yUp, options.normals, formatting)
+                                      : formatGltf(mesh, yUp, options.normals, formatting),
               writing);
     out.commit();
     return;
   }
-  const ObjFiles files = formatObj(mesh, path.stem().string(), yUp, formatting);
+  const ObjFiles files = formatObj(mesh, path.stem().string(), yUp, options.normals, formatting);
   out.write(files.obj, writing);
   // All are written before the first is put in its place, and the .obj comes last: when it is
   // there, so is what it names.

@@ -10,6 +10,7 @@
 
 #include "core/progress.h"
 #include "core/warnings.h"
+#include "mesh/shading_normals.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
@@ -24,6 +25,8 @@ enum class UpAxis {
 
 struct MeshFileOptions {
   UpAxis up = UpAxis::Default;
+  /// What is written to `.glb`, `.gltf`, `.obj` and `.ply`; reading joins what it splits.
+  MeshNormals normals = MeshNormals::Crease;
   /// Receives a line for whatever a file holds and the mesh cannot, and the other way round; null
   /// drops the lines.
   Warnings* warnings = nullptr;
@@ -87,9 +90,13 @@ TriangleMesh readMesh(std::string_view bytes, const std::string& name,
 ///
 /// "Exact" is what comes back from `readMesh`; 8-bit colors that came from a file come back
 /// exactly, too. A `.glb` has one primitive for each material, in their order, with the triangles
-/// in theirs; its vertices are those that triangles use, split only where UVs differ. The file is
-/// whole or not there, and the same mesh gives the same bytes. Throws `InputError` when the mesh
-/// does not pass `validate` or the file cannot be written.
+/// in theirs; its vertices are those that triangles use, split only where normals or UVs differ. In
+/// a `.ply`, copies of vertices that have several normals come last, and an element `copy` names
+/// the vertex of each. Normals (`.glb`, `.gltf`, `.ply`, `.obj`) are those of `shadingNormals` and
+/// take 0.25 s of CPU for a million triangles, in an `.obj` 0.4 s.
+///
+/// The file is whole or not there, and the same mesh gives the same bytes. Throws `InputError` when
+/// the mesh does not pass `validate` or the file cannot be written.
 void writeMesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                const MeshFileOptions& options = {}, const Progress& progress = {});
 

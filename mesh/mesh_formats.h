@@ -11,6 +11,7 @@
 
 #include "core/progress.h"
 #include "core/warnings.h"
+#include "mesh/shading_normals.h"
 #include "mesh/triangle_mesh.h"
 
 namespace exemplar {
@@ -57,13 +58,16 @@ struct ObjFiles {
   std::vector<NamedBytes> siblings;
 };
 ObjFiles formatObj(const TriangleMesh& mesh, const std::string& stem, bool yUp,
-                   const Progress& progress = {});
-std::string formatPly(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
+                   MeshNormals normals = MeshNormals::Crease, const Progress& progress = {});
+std::string formatPly(const TriangleMesh& mesh, bool yUp, MeshNormals normals = MeshNormals::Crease,
+                      const Progress& progress = {});
 std::string formatStl(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
 std::string formatOff(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
-std::string formatGlb(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
+std::string formatGlb(const TriangleMesh& mesh, bool yUp, MeshNormals normals = MeshNormals::Crease,
+                      const Progress& progress = {});
 /// A plain `.gltf`, its buffer embedded.
-std::string formatGltf(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
+std::string formatGltf(const TriangleMesh& mesh, bool yUp,
+                       MeshNormals normals = MeshNormals::Crease, const Progress& progress = {});
 
 /// Parts of a mesh, each placed any number of times.
 struct MeshInstances {
@@ -76,7 +80,7 @@ struct MeshInstances {
 };
 /// A `.glb` with a mesh for each part that has triangles and is placed, and a node for each place.
 std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp,
-                      const Progress& progress = {});
+                      MeshNormals normals = MeshNormals::Crease, const Progress& progress = {});
 
 /// World to file, for a file with y up, and back. Subtracting from 0 makes no negative zeros.
 inline Vec3d toFileAxes(const Vec3d& p, bool yUp) { return yUp ? Vec3d{p.x, p.z, 0 - p.y} : p; }

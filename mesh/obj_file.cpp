@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <set>
 #include <unordered_map>
@@ -274,7 +275,8 @@ class ObjReader {
     return true;
   }
 
-  /// Names with a comment behind them, which only the libraries can distinguish from names with blanks.
+  /// Names with a comment behind them, which only the libraries can distinguish from names with
+  /// blanks.
   void dropComments() {
     std::set<std::string> known;
     for (const MtlMaterial& m : library_) known.insert(m.material.name);
@@ -473,6 +475,19 @@ void appendVertices(std::string& out, const TriangleMesh& mesh, bool yUp,
   }
 }
 
+/// Writes normals with four decimals, which is 0.003 degrees.
+void appendNormals(std::string& out, const ShadingNormals& normals, bool yUp) {
+  for (const Vec3f& normal : normals.normals) {
+    const Vec3d n = toFileAxes(cast<double>(normal), yUp);
+    out += "vn";
+    for (const double c : {n.x, n.y, n.z}) {
+      out += ' ';
+      appendNumber(out, std::round(c * 1e4) / 1e4 + 0.0);  // -0 is 0
+    }
+    out += '\n';
+  }
+}
+
 /// Writes each different texture coordinate once; returns the index from 0 for each corner.
 std::vector<std::array<std::uint32_t, 3>> appendUvs(std::string& out, const TriangleMesh& mesh,
                                                     const Progress& progress) {
@@ -507,7 +522,7 @@ TriangleMesh parseObj(std::string_view bytes, const MeshSource& source) {
 }
 
 ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool yUp,
-                   const Progress& progress) {
+                   MeshNormals wanted, const Progress& progress) {
   // What is named in a line must not break it, and what starts with '-' would be an option.
   std::string stem = fileStem;
   for (char& c : stem) {
@@ -517,16 +532,20 @@ ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool y
   ObjFiles files;
   std::string& out = files.obj;
   std::vector<MtlMaterial> materials;
-  out.reserve(mesh.positions.size() * (mesh.hasColors() ? 100 : 60) +
-              mesh.triangles.size() * (mesh.hasUvs() ? 60 : 24));
+  out.reserve(
+      mesh.positions.size() * (mesh.hasColors() ? 100 : 60) +
+      mesh.triangles.size() * (mesh.hasUvs() ? 60 : 24) +
+      (wanted == MeshNormals::None ? 0 : mesh.positions.size() * 24 + mesh.triangles.size() * 24));
   if (mesh.hasMaterials()) {
     materials = namedMaterials(mesh, stem, files.siblings);
     files.siblings.push_back({stem + ".mtl", formatMtl(materials)});
     out += "mtllib " + stem + ".mtl\n";
   }
-  appendVertices(out, mesh, yUp, progress.part(0, 0.4));
+  const ShadingNormals normals = shadingNormals(mesh, wanted, progress.part(0, 0.2));
+  appendVertices(out, mesh, yUp, progress.part(0.2, 0.4));
   const Progress triangles = progress.part(0.5, 1);
   const auto uvIndices = appendUvs(out, mesh, progress.part(0.4, 0.5));
+  appendNormals(out, normals, yUp);
   std::uint32_t material = kNone;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     reportNowAndThen(triangles, "writing triangles", t, mesh.triangles.size());
@@ -541,6 +560,10 @@ ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool y
       if (mesh.hasUvs()) {
         out += '/';
         appendNumber(out, uvIndices[t][c] + 1);
+      }
+      if (!normals.corners.empty()) {
+        out += mesh.hasUvs() ? "/" : "//";
+        appendNumber(out, normals.corners[t][c] + 1);
       }
     }
     out += '\n';

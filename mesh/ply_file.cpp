@@ -367,11 +367,14 @@ class PlyReader {
         readStrips(element, body);
       } else if (element.name == "material" && element.find({"linear_red"}) >= 0) {
         readMaterials(element, header_, body);
+      } else if (element.name == "copy" && element.find({"vertex"}) >= 0) {
+        readCopies(element, body);
       } else {
         for (std::uint64_t i = 0; i < element.count; ++i) body.readRow();
       }
     }
     finish(body);
+    joinCopies();
     return std::move(mesh_);
   }
 
@@ -393,6 +396,34 @@ class PlyReader {
       if (vertexColors_.present()) vertexColors_.add(body);
       if (u >= 0 && v >= 0) vertexUvs_.push_back(uv(body.scalar(u), body.scalar(v)));
     }
+  }
+
+  /// The last vertices may be copies that `formatPly` made for their normals.
+  void readCopies(const Element& element, Body& body) {
+    const int vertex = element.find({"vertex"});
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      body.readRow();
+      copies_.push_back(body.scalar(vertex));
+    }
+  }
+
+  /// Joins copies with their vertices; none where a program between us has changed the vertices.
+  void joinCopies() {
+    if (copies_.empty() || copies_.size() >= mesh_.positions.size()) return;
+    const std::size_t originals = mesh_.positions.size() - copies_.size();
+    for (std::size_t i = 0; i < copies_.size(); ++i) {
+      const double v = copies_[i];
+      if (!(v >= 0 && v < static_cast<double>(originals)) || v != std::floor(v)) return;
+      const std::size_t original = static_cast<std::size_t>(v), copy = originals + i;
+      if (mesh_.positions[original] != mesh_.positions[copy]) return;
+      if (mesh_.hasColors() && mesh_.colors[original] != mesh_.colors[copy]) return;
+    }
+    for (auto& triangle : mesh_.triangles) {
+      for (std::uint32_t& v : triangle)
+        if (v >= originals) v = static_cast<std::uint32_t>(copies_[v - originals]);
+    }
+    mesh_.positions.resize(originals);
+    if (mesh_.hasColors()) mesh_.colors.resize(originals);
   }
 
   Vec2f uv(double u, double v) const {
@@ -623,7 +654,7 @@ class PlyReader {
   std::vector<Vec2f> vertexUvs_;
   std::vector<Face> pendingFaces_;  // that came before the vertices
   std::vector<std::uint32_t> triangleCounts_;
-  std::vector<double> materialIndices_, textureIndices_;
+  std::vector<double> materialIndices_, textureIndices_, copies_;
   std::vector<Material> fileMaterials_;
   bool hasFaceUvs_ = false, hasMaterialIndices_ = false, hasTextureIndices_ = false;
   std::size_t shortFaces_ = 0;
@@ -638,8 +669,8 @@ void appendLittle(std::string& out, T value) {
   out.append(raw.data(), raw.size());
 }
 
-std::string headerOf(const TriangleMesh& mesh, bool asDouble) {
-  const std::string vertices = std::to_string(mesh.positions.size());
+std::string headerOf(const TriangleMesh& mesh, const SplitVertices& split, bool asDouble) {
+  const std::string vertices = std::to_string(split.source.size());
   std::string out = "ply\nformat binary_little_endian 1.0\ncomment written by exemplar\n";
   if (mesh.hasMaterials()) {
     for (std::size_t m = 0; m < mesh.materials.size(); ++m) {
@@ -652,13 +683,14 @@ std::string headerOf(const TriangleMesh& mesh, bool asDouble) {
   for (const char* axis : {"x", "y", "z"}) {
     out += std::string("property ") + (asDouble ? "double " : "float ") + axis + "\n";
   }
+  if (!split.normals.empty()) out += "property float nx\nproperty float ny\nproperty float nz\n";
   const char* colors =
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
   if (mesh.hasColors()) out += colors;
   out += "element face " + std::to_string(mesh.triangles.size()) + "\n";
   // Signed indices are what more readers know.
-  out += mesh.positions.size() <= 0x7fffffff ? "property list uchar int vertex_indices\n"
-                                             : "property list uchar uint vertex_indices\n";
+  out += split.source.size() <= 0x7fffffff ? "property list uchar int vertex_indices\n"
+                                           : "property list uchar uint vertex_indices\n";
   if (mesh.hasUvs()) out += "property list uchar float texcoord\n";
   if (mesh.hasMaterials()) {
     out += colors;
@@ -669,6 +701,10 @@ std::string headerOf(const TriangleMesh& mesh, bool asDouble) {
       out += std::string("property float ") + name + "\n";
     }
   }
+  if (split.source.size() > split.originals) {
+    out += "element copy " + std::to_string(split.source.size() - split.originals) +
+           "\nproperty uint vertex\n";
+  }
   return out + "end_header\n";
 }
 
@@ -678,20 +714,25 @@ TriangleMesh parsePly(std::string_view bytes, const MeshSource& source) {
   return PlyReader(bytes, source).read();
 }
 
-std::string formatPly(const TriangleMesh& mesh, bool yUp, const Progress& progress) {
-  const Progress vertices = progress.part(0, 0.4), triangles = progress.part(0.4, 1);
+std::string formatPly(const TriangleMesh& mesh, bool yUp, MeshNormals normals,
+                      const Progress& progress) {
+  const Progress vertices = progress.part(0.3, 0.5), triangles = progress.part(0.5, 1);
+  const SplitVertices split =
+      splitVertices(mesh, shadingNormals(mesh, normals, progress.part(0, 0.3)),
+                    {.uvs = false, .keepUnused = true}, progress);
   const auto isFloat = [](double c) { return static_cast<double>(static_cast<float>(c)) == c; };
   const bool asDouble =
       !std::all_of(mesh.positions.begin(), mesh.positions.end(),
                    [&](const Vec3d& p) { return isFloat(p.x) && isFloat(p.y) && isFloat(p.z); });
-  std::string out = headerOf(mesh, asDouble);
-  out.reserve(out.size() + mesh.positions.size() * 28 +
+  std::string out = headerOf(mesh, split, asDouble);
+  out.reserve(out.size() + split.source.size() * 40 +
               mesh.triangles.size() * (mesh.hasUvs() ? 46 : 21));
   const auto appendColor = [&](const std::array<float, 4>& color) {
     for (const std::uint8_t sample : toRgba8(color)) out += static_cast<char>(sample);
   };
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    reportNowAndThen(vertices, "writing vertices", v, mesh.positions.size());
+  for (std::size_t i = 0; i < split.source.size(); ++i) {
+    reportNowAndThen(vertices, "writing vertices", i, split.source.size());
+    const std::uint32_t v = split.source[i];
     const Vec3d p = toFileAxes(mesh.positions[v], yUp);
     for (const double c : {p.x, p.y, p.z}) {
       if (asDouble) {
@@ -700,12 +741,16 @@ std::string formatPly(const TriangleMesh& mesh, bool yUp, const Progress& progre
         appendLittle(out, static_cast<float>(c));
       }
     }
+    if (!split.normals.empty()) {
+      const Vec3d n = toFileAxes(cast<double>(split.normals[i]), yUp);
+      for (const double c : {n.x, n.y, n.z}) appendLittle(out, static_cast<float>(c));
+    }
     if (mesh.hasColors()) appendColor(mesh.colors[v]);
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     reportNowAndThen(triangles, "writing triangles", t, mesh.triangles.size());
     out += '\3';
-    for (const std::uint32_t v : mesh.triangles[t]) appendLittle(out, v);
+    for (const std::uint32_t v : split.triangles[t]) appendLittle(out, v);
     if (mesh.hasUvs()) {
       out += '\6';
       for (const Vec2f& uv : mesh.uvs[t]) {
@@ -726,6 +771,8 @@ std::string formatPly(const TriangleMesh& mesh, bool yUp, const Progress& progre
       }
     }
   }
+  for (std::size_t i = split.originals; i < split.source.size(); ++i)
+    appendLittle(out, split.source[i]);
   return out;
 }
 

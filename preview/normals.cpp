@@ -3,44 +3,18 @@
 
 #include "preview/normals.h"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "core/parallel.h"
+#include "mesh/shading_normals.h"
 
 namespace exemplar {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kMostTriangles = 512;  // around one vertex; the work grows with its square
 constexpr std::size_t kGrain = 4096;
-
-std::uint64_t hashPosition(const Vec3d& p) {
-  std::uint64_t h = 0x9e3779b97f4a7c15u;
-  for (int axis = 0; axis < 3; ++axis) {
-    h ^= std::bit_cast<std::uint64_t>(p[axis] + 0.0);  // -0 is 0
-    h *= 0xff51afd7ed558ccdu;
-    h ^= h >> 32;
-  }
-  return h;
-}
-
-// For each vertex the first one at the same position.
-std::vector<std::uint32_t> firstOfEqual(const std::vector<Vec3d>& positions) {
-  const std::size_t n = positions.size();
-  const std::size_t slots = std::bit_ceil(2 * n + 1);
-  std::vector<std::uint32_t> table(slots, kNone), first(n);
-  for (std::size_t v = 0; v < n; ++v) {
-    std::size_t slot = hashPosition(positions[v]) & (slots - 1);
-    while (table[slot] != kNone && !(positions[table[slot]] == positions[v]))
-      slot = (slot + 1) & (slots - 1);
-    if (table[slot] == kNone) table[slot] = static_cast<std::uint32_t>(v);
-    first[v] = table[slot];
-  }
-  return first;
-}
 
 struct Facet {
   Vec3f normal;  // zero without area

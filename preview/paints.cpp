@@ -12,12 +12,8 @@ constexpr Paint kClay{{0.50f, 0.455f, 0.405f}, 0, 0.65f, {}};
 
 }  // namespace
 
-Paints::Paints(const TriangleMesh& mesh) : mesh_(mesh) {
-  textures_.resize(mesh.textures.size());
-  for (const std::uint32_t m : mesh.triangleMaterials)
-    if (const auto& t = mesh.materials[m].baseColorTexture; t && !textures_[*t])
-      textures_[*t] = std::make_unique<ColorTexture>(mesh.textures[*t]);
-}
+Paints::Paints(const TriangleMesh& mesh, Warnings* warnings)
+    : mesh_(mesh), textures_(colorTextures(mesh, warnings)) {}
 
 Paint Paints::at(std::uint32_t triangle, float u, float v) const {
   const std::array<float, 3> share{1 - u - v, u, v};
@@ -25,7 +21,7 @@ Paint Paints::at(std::uint32_t triangle, float u, float v) const {
   if (mesh_.hasMaterials()) {
     const Material& m = mesh_.materials[mesh_.triangleMaterials[triangle]];
     paint = {{m.baseColor[0], m.baseColor[1], m.baseColor[2]}, m.metallic, m.roughness, m.emission};
-    if (m.baseColorTexture && mesh_.hasUvs()) {
+    if (m.baseColorTexture && mesh_.hasUvs() && textures_[*m.baseColorTexture]) {
       Vec2f at{};
       for (int c = 0; c < 3; ++c) {
         at.x += mesh_.uvs[triangle][c].x * share[c];

@@ -24,8 +24,9 @@ struct Paint {
 /// where it has neither.
 class Paints {
  public:
-  /// Keeps a reference to `mesh`. Throws `InputError` for a texture that cannot be decoded.
-  explicit Paints(const TriangleMesh& mesh);
+  /// Keeps a reference to `mesh`. A texture that cannot be decoded is left out, with a line in
+  /// `warnings` (may be null).
+  Paints(const TriangleMesh& mesh, Warnings* warnings);
 
   /// At the point (1 - u - v, u, v) of a triangle.
   Paint at(std::uint32_t triangle, float u, float v) const;

@@ -126,7 +126,7 @@ Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& option
       scale_(sceneScale(boundingBox(mesh), options.view.elevation < 0)),
       tracer_(mesh, scale_, progress),
       normals_(cornerNormals(mesh, options.creaseAngle)),
-      paints_(mesh),
+      paints_(mesh, options.warnings),
       studio_(cast<float>(keyDirection(options)), static_cast<float>(options.keyRadius)),
       paths_(std::max(1, options.samples / kRaysOfPath)) {
   // The camera is fitted before the scene is turned over, and turned with it: what it shows stays.

@@ -10,6 +10,7 @@
 
 #include "core/progress.h"
 #include "core/vec.h"
+#include "core/warnings.h"
 #include "mesh/image.h"
 #include "mesh/triangle_mesh.h"
 
@@ -47,6 +48,9 @@ struct RenderOptions {
 
   /// Edges whose faces meet at less than this look smooth; radians, 0 (all facets) .. pi/2.
   double creaseAngle = 0.7;
+
+  /// Receives a line for each texture that cannot be decoded; null drops the lines.
+  Warnings* warnings = nullptr;
 };
 
 /// A shaded picture of a mesh (Embree): a soft key light from over the shoulder, sky light with
@@ -58,8 +62,8 @@ struct RenderOptions {
 /// Opaque sRGB, three channels. The same bytes at any number of threads (on one kind of machine:
 /// Embree's kernels differ in the last bit between instruction sets). About 4 s on two cores for
 /// the defaults and a third of a million triangles. Throws `InputError` for options out of range,
-/// for a mesh that `validate` refuses, for a texture that cannot be decoded, and where memory does
-/// not suffice, and `Cancelled`.
+/// for a mesh that `validate` refuses and where memory does not suffice, and `Cancelled`. Materials
+/// whose texture cannot be decoded show their base color.
 Image8 render(const TriangleMesh& mesh, const RenderOptions& options = {},
               const Progress& progress = {});
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "mesh/color.h"
 
 namespace exemplar {
@@ -46,6 +47,24 @@ Vec3f ColorTexture::at(const Vec2f& uv) const {
   const Vec3f lower =
       texel(x.first, y.second) * (1 - x.share) + texel(x.second, y.second) * x.share;
   return upper * (1 - y.share) + lower * y.share;
+}
+
+std::vector<std::unique_ptr<ColorTexture>> colorTextures(const TriangleMesh& mesh,
+                                                         Warnings* warnings) {
+  std::vector<std::unique_ptr<ColorTexture>> textures(mesh.textures.size());
+  std::vector<bool> isUsed(mesh.textures.size(), false);
+  for (const std::uint32_t m : mesh.triangleMaterials)
+    if (const auto& t = mesh.materials[m].baseColorTexture) isUsed[*t] = true;
+  for (std::size_t t = 0; t < textures.size(); ++t) {
+    if (!isUsed[t]) continue;
+    try {
+      textures[t] = std::make_unique<ColorTexture>(mesh.textures[t]);
+    } catch (const InputError& error) {
+      warn(warnings,
+           std::string(error.what()) + "; pictures show its materials in their base color alone");
+    }
+  }
+  return textures;
 }
 
 }  // namespace exemplar

@@ -3,7 +3,11 @@
 
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "core/vec.h"
+#include "core/warnings.h"
 #include "mesh/image.h"
 #include "mesh/triangle_mesh.h"
 
@@ -24,5 +28,10 @@ class ColorTexture {
 
   Image8 image_;
 };
+
+/// The base-color textures that triangles of a mesh have, by their index in `mesh.textures`; null
+/// where none does, and where one cannot be decoded, which is a line in `warnings` (may be null).
+std::vector<std::unique_ptr<ColorTexture>> colorTextures(const TriangleMesh& mesh,
+                                                         Warnings* warnings);
 
 }  // namespace exemplar

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
 #include "reconstruct/piece_materials.h"
@@ -18,7 +19,6 @@
 #include "reconstruct/texture_charts.h"
 #include "reconstruct/texture_transfer.h"
 #include "reconstruct/triangle_sources.h"
-#include "core/loop_progress.h"
 
 namespace exemplar {
 namespace {
@@ -34,6 +34,14 @@ struct Plan {
   bool oneMaterial = true;  // the same for all triangles
 };
 
+/// Whether texture coordinates say anything: some files have the same one everywhere.
+bool coordinatesVary(const TriangleMesh& mesh) {
+  return std::any_of(mesh.uvs.begin(), mesh.uvs.end(), [&](const auto& corners) {
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](const Vec2f& uv) { return !(uv == mesh.uvs.front().front()); });
+  });
+}
+
 Plan makePlan(const TriangleMesh& example, TextureTransfer textures) {
   Plan plan;
   plan.materials = example.hasMaterials();
@@ -44,9 +52,10 @@ Plan makePlan(const TriangleMesh& example, TextureTransfer textures) {
       example.hasUvs() && example.hasMaterials() &&
       std::any_of(example.triangleMaterials.begin(), example.triangleMaterials.end(),
                   [&](std::uint32_t m) { return example.materials[m].baseColorTexture; });
-  plan.coordinates = textures == TextureTransfer::Coordinates
-                         ? example.hasUvs()
-                         : textures == TextureTransfer::Automatic && textured;
+  plan.coordinates =
+      textures == TextureTransfer::Coordinates
+          ? example.hasUvs()
+          : textures == TextureTransfer::Automatic && (textured || coordinatesVary(example));
   plan.bake = textures == TextureTransfer::VertexColors && textured;
   plan.colors = example.hasColors() || plan.bake;
   return plan;

@@ -22,7 +22,7 @@ struct ExampleView {
 
 /// What becomes of textures.
 enum class TextureTransfer {
-  Automatic,     ///< Coordinates where the example has a texture, else Drop
+  Automatic,     ///< Coordinates where the example has them, with a texture or without, else Drop
   Coordinates,   ///< texture coordinates: the texture's full detail, hard joints between copied
                  ///< parts
   VertexColors,  ///< the texture's color at each vertex, blended across joints: detail of a voxel

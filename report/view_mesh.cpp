@@ -45,11 +45,8 @@ std::uint8_t byteOf(double share) {
 /// What a mesh is made of; as `render` sees it.
 class Palette {
  public:
-  explicit Palette(const TriangleMesh& mesh) : mesh_(mesh), textures_(mesh.textures.size()) {
-    for (const std::uint32_t m : mesh.triangleMaterials)
-      if (const auto& t = mesh.materials[m].baseColorTexture; t && !textures_[*t])
-        textures_[*t] = std::make_unique<ColorTexture>(mesh.textures[*t]);
-  }
+  Palette(const TriangleMesh& mesh, Warnings* warnings)
+      : mesh_(mesh), textures_(colorTextures(mesh, warnings)) {}
 
   /// Whether looks differ within one material.
   bool varies() const {
@@ -72,7 +69,7 @@ class Palette {
         color = m.emission / own;
         looks.glow = byteOf(own);
       }
-      if (m.baseColorTexture && mesh_.hasUvs()) {
+      if (m.baseColorTexture && mesh_.hasUvs() && textures_[*m.baseColorTexture]) {
         Vec2f at{};
         for (int c = 0; c < 3; ++c) {
           at.x += mesh_.uvs[triangle][c].x * static_cast<float>(weights[c]);
@@ -151,8 +148,8 @@ Vec3d centroid(const TriangleMesh& mesh, std::size_t t) {
 
 /// The looks of every triangle's corners.
 std::vector<std::array<Looks, 3>> cornerLooks(const Shape& drawn, const TriangleMesh& full,
-                                              const Progress& progress) {
-  const Palette palette(full);
+                                              Warnings* warnings, const Progress& progress) {
+  const Palette palette(full, warnings);
   const TriangleMesh& shape = drawn.mesh;
   std::vector<std::array<Looks, 3>> looks(shape.triangles.size());
   if (!drawn.another) {
@@ -372,7 +369,7 @@ ViewMesh makeViewMesh(const ViewSource& source, const ViewOptions& options,
   const Shape drawn = shapeOf(source.mesh, options.triangles);
   const TriangleMesh& shape = drawn.mesh;
   const std::vector<std::array<Looks, 3>> looks =
-      cornerLooks(drawn, source.mesh, progress.part(0.3, 0.5));
+      cornerLooks(drawn, source.mesh, options.picture.warnings, progress.part(0.3, 0.5));
   const std::vector<std::array<Vec3f, 3>> normals =
       cornerNormals(shape, options.picture.creaseAngle);
   progress.report("placing the view's corners", 0.55);

@@ -214,7 +214,7 @@ TEST(MeshFile, GlbColorsAreLinear) {
   mesh.colors.assign(mesh.positions.size(), {0.5f, 0.25f, 1, 1});
   const std::string bytes = format(".glb", mesh);
   const std::size_t json = bytes.find('{');
-  EXPECT_THAT(bytes.substr(json, 400), HasSubstr("\"COLOR_0\":1"));
+  EXPECT_THAT(bytes.substr(json, 400), HasSubstr("\"COLOR_0\":2"));
   const float half = 0.5f, quarter = 0.25f;
   std::string pair(8, '\0');
   std::memcpy(pair.data(), &half, 4);

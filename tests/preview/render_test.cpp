@@ -38,6 +38,23 @@ int luminance(const Image8& image, int x, int y) {
   return (p[0] * 2 + p[1] * 5 + p[2]) / 8;
 }
 
+TEST(Render, ATextureThatCannotBeDecodedIsAWarning) {
+  TriangleMesh box = makeBox({{-1, -1, -1}, {1, 1, 1}});
+  setMaterial(box, {.baseColor = {0.9f, 0.1f, 0.1f, 1}});
+  box.uvs.assign(box.triangles.size(), {Vec2f{0, 0}, {1, 0}, {0, 1}});
+  const Image8 plain = render(box, quick());
+  box.materials[0].baseColorTexture = 0;
+  box.textures = {{"brick.png", "image/png", "\x89PNG\r\n\x1a\n and no more"},
+                  {"unused.png", "image/png", "nothing"}};
+  RenderOptions options = quick();
+  Warnings warnings;
+  options.warnings = &warnings;
+  EXPECT_EQ(render(box, options).pixels, plain.pixels) << "its base color alone";
+  ASSERT_EQ(warnings.size(), 1u) << "what no triangle has is not decoded";
+  EXPECT_THAT(warnings[0], ::testing::HasSubstr("brick.png"));
+  EXPECT_EQ(render(box, quick()).pixels, plain.pixels) << "and without anyone to read it";
+}
+
 TEST(Render, HoldsTheMeshAndLeavesTheBorderFree) {
   for (const char* view : {"iso", "front", "back", "left", "right", "-70,10", "20,80"}) {
     for (const Vec3d& size : {Vec3d{8, 8, 1}, Vec3d{1, 1, 8}, Vec3d{1, 1, 1}}) {

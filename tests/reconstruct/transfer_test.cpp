@@ -417,17 +417,42 @@ TEST(TransferAppearance, TexturesCanBeBakedIntoVertices) {
   }
 }
 
-TEST(TransferAppearance, CoordinatesWithoutATextureAreDropped) {
+TEST(TransferAppearance, CoordinatesAreKeptWithoutATextureAsWithOne) {
   TriangleMesh cube = texturedCube();
+  Sample with(cube, 16);
   cube.textures.clear();
   cube.materials[0].baseColorTexture.reset();
   Sample s(cube, 16);
+  const auto transfer = [](Sample& sample, TextureTransfer textures) {
+    transferAppearance(sample.result, sample.field, identityOrigins(sample.field.size()),
+                       sample.example, sample.field, {.textures = textures});
+  };
+  transfer(with, TextureTransfer::Automatic);
+  transfer(s, TextureTransfer::Automatic);
+  ASSERT_TRUE(s.result.hasUvs());
+  EXPECT_EQ(s.result.uvs, with.result.uvs);
+  EXPECT_EQ(s.result.positions, with.result.positions);
+  EXPECT_TRUE(s.result.hasMaterials());
+  transfer(s, TextureTransfer::Drop);
+  EXPECT_FALSE(s.result.hasUvs());
+
+  // Nor do they need a material.
+  cube.materials.clear();
+  cube.triangleMaterials.clear();
+  Sample bare(cube, 16);
+  transfer(bare, TextureTransfer::Automatic);
+  EXPECT_EQ(bare.result.uvs, with.result.uvs);
+  EXPECT_FALSE(bare.result.hasMaterials());
+}
+
+TEST(TransferAppearance, CoordinatesThatAreTheSameEverywhereAreDropped) {
+  TriangleMesh cube = texturedCube();
+  cube.textures.clear();
+  cube.materials[0].baseColorTexture.reset();
+  cube.uvs.assign(cube.triangles.size(), {Vec2f{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}});
+  Sample s(cube, 16);
   transferAppearance(s.result, s.field, identityOrigins(s.field.size()), s.example, s.field);
   EXPECT_FALSE(s.result.hasUvs());
-  EXPECT_TRUE(s.result.hasMaterials());
-  transferAppearance(s.result, s.field, identityOrigins(s.field.size()), s.example, s.field,
-                     {.textures = TextureTransfer::Coordinates});
-  EXPECT_TRUE(s.result.hasUvs());
 }
 
 TEST(TransferAppearance, SeveralExamplesBringTheirOwn) {
