@@ -566,6 +566,73 @@ TEST(MeshToSdf, ReportsItsProgressAndStopsWhereItIsCancelled) {
     }
 }
 
+// The solid angle of a triangle in units of the full sphere (van Oosterom, Strackee 1983).
+double windingOf(const Corners& t, const Vec3d& p) {
+  const Vec3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
+  const double la = length(a), lb = length(b), lc = length(c);
+  return std::atan2(dot(a, cross(b, c)),
+                    la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb) /
+         6.28318530717958648;
+}
+
+// Single triangles that cross each other everywhere.
+TriangleMesh crossingTriangles(int count, int seed) {
+  const Random random(static_cast<std::uint64_t>(seed));
+  TriangleMesh soup;
+  for (int t = 0; t < count; ++t) {
+    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+    for (int c = 0; c < 3; ++c)
+      soup.positions.push_back(
+          {random.uniform(t, 3 * c), random.uniform(t, 3 * c + 1), random.uniform(t, 3 * c + 2)});
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+// Samples whose sign differs from that of the sum over all triangles, and how many samples have
+// one.
+std::pair<int, int> wrongSigns(const TriangleMesh& mesh, const DistanceField& field) {
+  int wrong = 0, sure = 0;
+  for (std::size_t s = 0; s < field.values.count(); ++s) {
+    const Vec3d p = field.position(cast<double>(field.values.ijk(s)));
+    double winding = 0;
+    for (const auto& [a, b, c] : mesh.triangles)
+      winding += windingOf({mesh.positions[a], mesh.positions[b], mesh.positions[c]}, p);
+    // Winding numbers are right to within 0.01.
+    if (std::abs(std::abs(winding) - 0.5) < 0.01) continue;
+    ++sure;
+    wrong += (std::abs(winding) > 0.5) != (field.values.values()[s] < 0);
+  }
+  return {wrong, sure};
+}
+
+TEST(MeshToSdf, HasTheSignOfTheWindingNumberInSoups) {
+  // From few triangles, which are cut finely, to so many crossings that pieces get longer.
+  for (const int count : {3, 20, 120}) {
+    const TriangleMesh soup = crossingTriangles(count, count);
+    const DistanceField field = meshToSdf(soup, {.resolution = 20, .padding = 1});
+    const auto [wrong, sure] = wrongSigns(soup, field);
+    EXPECT_EQ(wrong, 0) << count;
+    EXPECT_GT(sure, 5000) << count;
+    // And where the sign changes, the surface is near: the field is a distance.
+    EXPECT_LT(steepest(field), 2.0) << count;
+  }
+}
+
+TEST(MeshToSdf, HasTheSignOfTheWindingNumberInClosedMeshesThatCrossThemselves) {
+  // Each triangle crosses several others.
+  TriangleMesh mesh = makeSphere({}, 1, 9);
+  const Random random(3);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    mesh.positions[v] +=
+        Vec3d{random.normal(v, 0), random.normal(v, 2), random.normal(v, 4)} * 0.15;
+  const DistanceField field = meshToSdf(mesh, {.resolution = 20, .padding = 1});
+  const auto [wrong, sure] = wrongSigns(mesh, field);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(sure, 5000);
+  EXPECT_LT(steepest(field), 2.0);
+}
+
 TEST(MeshToSdf, RefusesOptionsOutOfRangeInOneLine) {
   const TriangleMesh mesh = makeBox({{0, 0, 0}, {1, 1, 1}});
   const auto error = [&](const MeshToSdfOptions& options) {
