@@ -452,6 +452,34 @@ TEST(MeshToSdf, OfAMeshThatIsThereTwiceIsThatOfOne) {
   EXPECT_EQ(once.values, twice.values);
 }
 
+TEST(MeshToSdf, OfADoubleSidedMeshIsThatOfItsSolid) {
+  const TriangleMesh box = makeBox({{0, 0, 0}, {2, 3, 4}});
+  const MeshToSdfOptions options{.resolution = 24, .padding = 2};
+  const DistanceField once = meshToSdf(box, options);
+  ASSERT_GT(countInside(once), 1000);
+  // All faces twice, in either order; some of them; and three times.
+  EXPECT_EQ(meshToSdf(joined(box, flipped(box)), options).values, once.values);
+  EXPECT_EQ(meshToSdf(joined(flipped(box), box), options).values, once.values);
+  for (const std::size_t some : {1, 2, 5, 11}) {
+    TriangleMesh part = flipped(box);
+    part.triangles.resize(some);
+    EXPECT_EQ(meshToSdf(joined(box, part), options).values, once.values) << some;
+  }
+  EXPECT_EQ(meshToSdf(joined(joined(box, box), flipped(box)), options).values, once.values);
+  // Two double-sided solids that overlap, one of them facing inwards first.
+  const TriangleMesh other = makeBox({{1, 1, 1}, {3, 2, 5}});
+  const DistanceField both = meshToSdf(joined(box, other), options);
+  const DistanceField doubled =
+      meshToSdf(joined(joined(box, flipped(box)), joined(flipped(other), other)), options);
+  ASSERT_EQ(doubled.size(), both.size());
+  for (std::size_t s = 0; s < both.values.count(); ++s)
+    ASSERT_NEAR(doubled.values.values()[s], both.values.values()[s], 0.25 * both.voxelSize);
+  // Without a top, it is as the one-sided one.
+  const TriangleMesh open = openBox({{0, 0, 0}, {2, 3, 4}});
+  EXPECT_EQ(meshToSdf(joined(open, flipped(open)), options).values,
+            meshToSdf(open, options).values);
+}
+
 TEST(MeshToSdf, KeepsHollowsThatFaceOutwards) {
   const TriangleMesh shell = joined(fineSphere({}, 1), flipped(fineSphere({}, 0.6)));
   const Shape exact = [](const Vec3d& p) { return std::max(length(p) - 1, 0.6 - length(p)); };
