@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -69,6 +70,56 @@ std::vector<Vec3d> joinPoints(const TriangleMesh& mesh, const Vec3d& origin, dou
     indices[order[i]] = static_cast<std::uint32_t>(points.size() - 1);
   }
   return points;
+}
+
+// A flat quadrilateral that is there from both sides, cut along one diagonal on one side and along
+// the other on the other: cuts both along the same one, so that its triangles are equal.
+void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) {
+  struct Quad {
+    Triangle left, right;              // from the diagonal's ends to a corner on each side
+    std::array<std::uint32_t, 4> key;  // the corners, sorted
+    std::uint32_t t, u;
+    Vec3d normal;
+    bool operator<(const Quad& o) const { return std::tie(key, t, u) < std::tie(o.key, o.t, o.u); }
+  };
+  const auto normalOf = [&](const Triangle& t) {
+    return normalized(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
+  };
+  constexpr double kFlat = 0.9999;  // the cosine of the angle at the diagonal
+  std::vector<Quad> quads;
+  const std::vector<Side> sides = sortedSides(triangles);
+  forEdges(sides, [&](std::size_t b, std::size_t e) {
+    if (e - b != 2 || sides[b].upwards == sides[b + 1].upwards) return;
+    const auto from = [&](const Side& s) {
+      const Triangle& t = triangles[s.triangle];
+      return Triangle{t[s.side], t[(s.side + 1) % 3], t[(s.side + 2) % 3]};
+    };
+    Quad q{from(sides[b]), from(sides[b + 1]), {}, sides[b].triangle, sides[b + 1].triangle, {}};
+    q.normal = normalOf(q.left);
+    if (!(dot(q.normal, normalOf(q.right)) > kFlat)) return;
+    q.key = {q.left[0], q.left[1], q.left[2], q.right[2]};
+    std::sort(q.key.begin(), q.key.end());
+    quads.push_back(q);
+  });
+  tbb::parallel_sort(quads.begin(), quads.end());
+  std::vector<std::uint8_t> used(triangles.size());
+  for (std::size_t b = 0, e = 0; b < quads.size(); b = e) {
+    while (e < quads.size() && quads[e].key == quads[b].key) ++e;
+    const Quad& first = quads[b];
+    for (const Quad& q : std::span<const Quad>(quads.data() + b + 1, quads.data() + e)) {
+      const bool otherDiagonal =
+          std::min(q.left[0], q.left[1]) != std::min(first.left[0], first.left[1]) ||
+          std::max(q.left[0], q.left[1]) != std::max(first.left[0], first.left[1]);
+      if (!otherDiagonal || dot(q.normal, first.normal) > -kFlat || used[q.t] || used[q.u])
+        continue;
+      used[q.t] = used[q.u] = 1;
+      const auto [low, high, c] = q.left;
+      const std::uint32_t d = q.right[2];
+      triangles[q.t] = {low, d, c};
+      triangles[q.u] = {d, high, c};
+    }
+    used[first.t] = used[first.u] = 1;
+  }
 }
 
 // Triangles without those that have no area, and of equal ones what is left when opposite ones have
@@ -308,6 +359,7 @@ TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scal
     for (std::uint32_t& v : t) v = indices[v];
   report(0.2);
   {
+    matchDiagonals(soup.points, soup.triangles);
     Distinct distinct = distinctTriangles(soup.points, soup.triangles);
     const std::vector<Triangle> walls =
         doubledWalls(soup.points, distinct.triangles, distinct.cancelled);

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -281,6 +282,25 @@ TEST(MeshToSdf, OfAQuarterOfTheMeshIsAQuarterOfTheField) {
     ASSERT_EQ(quarter.values.values()[s], field.values.values()[s] * 0.25f);
 }
 
+TEST(MeshToSdf, IsTheSameAtAnyScaleAndFarFromTheOrigin) {
+  const TriangleMesh mesh = makeBox({{0, 0, 0}, {2, 3, 4}});
+  const MeshToSdfOptions options{.resolution = 16, .padding = 2};
+  const DistanceField field = meshToSdf(mesh, options);
+  for (const double scale : {1e-20, 1e-7, 1e-4, 1e6})
+    for (const double far : {0.0, 1e8}) {
+      const DistanceField other = meshToSdf(moved(mesh,
+                                                  [&](const Vec3d& p) {
+                                                    return (p + Vec3d{far, -far, far}) * scale;
+                                                  }),
+                                            options);
+      ASSERT_EQ(other.size(), field.size()) << scale << ", " << far;
+      // Steps of doubles at 1e8 are 1.5e-8, 6e-8 voxels.
+      for (std::size_t s = 0; s < field.values.count(); ++s)
+        ASSERT_NEAR(other.values.values()[s] / scale, field.values.values()[s], 1e-6)
+            << scale << ", " << far;
+    }
+}
+
 TEST(MeshToSdf, FollowsARotationOfTheMesh) {
   const TriangleMesh mesh = joined(makeTorus({0.1, 0, 0}, {0, 0, 1}, 0.6, 0.2),
                                    makeBox({{-0.2, -0.3, -0.4}, {0.5, 0.3, 0.1}}));
@@ -478,6 +498,40 @@ TEST(MeshToSdf, OfADoubleSidedMeshIsThatOfItsSolid) {
   const TriangleMesh open = openBox({{0, 0, 0}, {2, 3, 4}});
   EXPECT_EQ(meshToSdf(joined(open, flipped(open)), options).values,
             meshToSdf(open, options).values);
+}
+
+TEST(MeshToSdf, SidesOfADoubleSidedMeshMayBeCutAlongOtherDiagonals) {
+  // Quadrilaterals as files have them: the fan of the reversed one begins at another corner.
+  const std::array<std::array<std::uint32_t, 4>, 6> faces{
+      {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  TriangleMesh box;
+  box.positions = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0},
+                   {0, 0, 4}, {2, 0, 4}, {2, 3, 4}, {0, 3, 4}};
+  const auto addFace = [](TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                          std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (const auto& [a, b, c, d] : faces) addFace(box, a, b, c, d);
+  const MeshToSdfOptions options{.resolution = 24, .padding = 2};
+  const DistanceField once = meshToSdf(box, options);
+  ASSERT_GT(countInside(once), 1000);
+  // All faces, some of them, and with some cut alike; with the points of each face its own.
+  for (const std::size_t some : {1, 3, 6})
+    for (const std::size_t alike : {0, 1, 2}) {
+      TriangleMesh doubled = box;
+      for (std::size_t f = 0; f < some; ++f) {
+        const auto& [a, b, c, d] = faces[f];
+        if (f < alike) {
+          addFace(doubled, c, b, a, d);
+        } else {
+          addFace(doubled, d, c, b, a);
+        }
+      }
+      EXPECT_LT(test::worstError(meshToSdf(doubled, options), test::box({{0, 0, 0}, {2, 3, 4}})),
+                1e-5)
+          << some << ", " << alike;
+    }
 }
 
 TEST(MeshToSdf, KeepsHollowsThatFaceOutwards) {
