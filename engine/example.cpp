@@ -42,6 +42,10 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
                          "height of one step of a height map's integers", kAboveZero, "world units",
                          "1");
   };
+  const auto grid = [] {
+    return settingRow<O>("grid", &O::grid, "which grid of a .vdb file is read, by its name", {}, "",
+                         "a level set, else \"density\", else the first");
+  };
   static const SettingTable<O> field{
       settingRow<O>("resolution", &O::resolution,
                     "samples along the example's longest side; finer detail is lost", {4, 4096},
@@ -51,6 +55,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       sceneSeed(),
       cellSize(),
       heightScale(),
+      grid(),
       meshUpRow()};
   static const SettingTable<O> labels{
       settingRow<O>("cell", &O::cell, "side of a cell of a mesh, which cuts it into model pieces",
@@ -87,6 +92,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       sceneSeed(),
       cellSize(),
       heightScale(),
+      grid(),
       meshUpRow()};
   return form == Form::Field ? field : labels;
 }
