@@ -43,6 +43,7 @@ void warnOfUnused(Example& example) {
   use("scene-seed", o.sceneSeed.has_value(), scene);
   use("cell-size", o.cellSize.has_value(), heights);
   use("height-scale", o.heightScale.has_value(), heights);
+  use("grid", !o.grid.empty(), kind == SourceKind::Volume);
   use("cell", o.cell.has_value(), labels && (mesh || scene));
   use("air", o.air.has_value(), labels && (mesh || scene));
   use("piece", o.image.piece != usual.image.piece, picture);
@@ -86,6 +87,10 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
                          "height of one step of a height map's integers", kAboveZero, "world units",
                          "1");
   };
+  const auto grid = [] {
+    return settingRow<O>("grid", &O::grid, "which grid of a .vdb file is read, by its name", {}, "",
+                         "a level set, else \"density\", else the first");
+  };
   static const SettingTable<O> field{
       settingRow<O>("resolution", &O::resolution,
                     "samples along the example's longest side; finer detail is lost", {4, 4096},
@@ -95,6 +100,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       sceneSeed(),
       cellSize(),
       heightScale(),
+      grid(),
       meshUpRow(),
       normalsRow()};
   static const SettingTable<O> labels{
@@ -132,6 +138,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       sceneSeed(),
       cellSize(),
       heightScale(),
+      grid(),
       meshUpRow(),
       normalsRow()};
   return form == Form::Field ? field : labels;

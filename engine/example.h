@@ -66,6 +66,7 @@ struct ReadOptions {
   MeshFileOptions mesh;
   std::optional<double> cellSize;     ///< world distance of a height map's points, > 0
   std::optional<double> heightScale;  ///< world height of one step of its integers, > 0
+  std::string grid;                   ///< the name of a .vdb file's grid; empty: `readVdb` chooses
 
   // Labels only:
   std::optional<Vec3d> cell;         ///< sides of a cell of a mesh, world units, > 0

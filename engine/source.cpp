@@ -67,9 +67,10 @@ TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
   return readMesh(source.path(), options, progress);
 }
 
-DistanceField readDistances(const Source& source, Axes* wraps, const Progress& progress) {
+DistanceField readDistances(const Source& source, const ReadVdbOptions& options, Axes* wraps,
+                            const Progress& progress) {
   if (!isFile(source)) return held<DistanceField>(source, "distances");
-  return readVdb(source.path(), wraps, progress);
+  return readVdb(source.path(), options, wraps, progress);
 }
 
 LabelGrid readLabelGrid(const Source& source, const Progress& progress) {

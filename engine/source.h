@@ -14,6 +14,7 @@
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
 #include "sdf/height_map.h"
+#include "sdf/vdb_file.h"
 #include "voxelize/label_grid.h"
 
 namespace exemplar {
@@ -86,8 +87,8 @@ inline constexpr const char* kExampleEndings =
 /// Read what a source holds. Throw `InputError` naming it, and `Cancelled`.
 TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
                            const Progress& progress = {});
-DistanceField readDistances(const Source& source, Axes* wraps = nullptr,
-                            const Progress& progress = {});
+DistanceField readDistances(const Source& source, const ReadVdbOptions& options = {},
+                            Axes* wraps = nullptr, const Progress& progress = {});
 LabelGrid readLabelGrid(const Source& source, const Progress& progress = {});
 HeightMap readHeights(const Source& source, const HeightMapFileOptions& options,
                       const Progress& progress = {});

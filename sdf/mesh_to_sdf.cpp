@@ -173,9 +173,9 @@ void spreadSigns(const Test& test, const Array3D<float>& distances, Array3D<std:
   forBlocks(distances.size(), 4, progress, "finding signs", spread);
 }
 
-// The solid of a soup with openings: its sign has to be asked everywhere, and where it changes off
-// the triangles, the caps of the openings are part of the surface.
-void measureOpen(const SolidTest& solid, std::vector<Corners> triangles, double limit,
+// The solid of a soup with openings, or with crossings too dense to be cut finely: its sign has to
+// be asked everywhere, and where it changes off the triangles, the caps are part of the surface.
+void measureOpen(const SolidTest& solid, std::vector<Corners> triangles, bool fine, double limit,
                  Array3D<float>& distances, Array3D<std::uint8_t>& inside,
                  const Progress& progress) {
   // Caps beside the box count as well, as far as they matter to most bands.
@@ -188,12 +188,15 @@ void measureOpen(const SolidTest& solid, std::vector<Corners> triangles, double 
             [&](const Vec3i& first, const Vec3i& end) { askAll(solid, low, first, end, in); });
   {
     Array3D<float> near(size);
-    sampleDistances(TriangleTree(triangles, progress), 2, low, near, progress.part(0.4, 0.6));
-    const std::vector<Corners> caps = openingCaps(solid, low, in, near, progress.part(0.6, 0.7));
+    sampleDistances(TriangleTree(triangles, progress, TriangleTree::For::Distances), 2, low, near,
+                    progress.part(0.4, 0.6));
+    const std::vector<Corners> caps =
+        openingCaps(solid, low, in, near, fine, progress.part(0.6, 0.7));
     triangles.insert(triangles.end(), caps.begin(), caps.end());
   }
   parallelForEachCell(inside.size(), [&](const Vec3i& ijk) { inside[ijk] = in[ijk - low]; });
-  measure(TriangleTree(std::move(triangles), progress), limit, distances, progress.part(0.7, 1));
+  measure(TriangleTree(std::move(triangles), progress, TriangleTree::For::Distances), limit,
+          distances, progress.part(0.7, 1));
 }
 
 }  // namespace
@@ -215,18 +218,20 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
   const auto tree = std::make_shared<const TriangleTree>(cornersOf(soup), progress);
   if (source == SignSource::WindingNumber) {
     const SolidTest solid(soup, tree, progress);
-    std::vector<Corners> bounding =
+    BoundingSurface surface =
         boundingTriangles(soup, *tree, solid, frame.size, limit + 4, progress.part(0.15, 0.4));
+    std::vector<Corners> bounding = std::move(surface.triangles);
     if (options.cutByBox) bounding = withoutCuts(std::move(bounding), frame.size);
     progress.report("measuring distances", 0.4);
-    if (!soup.closed) {
-      measureOpen(solid, std::move(bounding), limit, distances, inside, progress.part(0.4, 1));
+    if (!soup.closed || !surface.fine) {
+      measureOpen(solid, std::move(bounding), surface.fine, limit, distances, inside,
+                  progress.part(0.4, 1));
     } else {
       if (bounding == tree->triangles()) {
         measure(*tree, limit, distances, progress.part(0.4, 0.9));
       } else {
-        measure(TriangleTree(std::move(bounding), progress), limit, distances,
-                progress.part(0.4, 0.9));
+        measure(TriangleTree(std::move(bounding), progress, TriangleTree::For::Distances), limit,
+                distances, progress.part(0.4, 0.9));
       }
       spreadSigns(solid, distances, inside, progress.part(0.9, 1));
     }

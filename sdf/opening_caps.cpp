@@ -61,9 +61,10 @@ std::vector<Key> capEdges(const Lattice& lattice, const Progress& progress) {
 // Where along each edge the surface crosses it, from 0 to 1. The winding number is smooth there, so
 // the edges are halved; the edges of a batch, neighbors mostly, are tested together.
 std::vector<float> capCrossings(const SolidTest& solid, const Lattice& lattice,
-                                const std::vector<Key>& edges, const Progress& progress) {
+                                const std::vector<Key>& edges, bool fine,
+                                const Progress& progress) {
   constexpr std::size_t kBatch = 32;
-  constexpr int kHalvings = 6;
+  const int halvings = fine ? 6 : 3;
   std::vector<float> shares(edges.size());
   const std::size_t batches = (edges.size() + kBatch - 1) / kBatch;
   LoopProgress done(progress, "closing openings", batches);
@@ -74,7 +75,7 @@ std::vector<float> capCrossings(const SolidTest& solid, const Lattice& lattice,
       high.fill(1);
       std::array<Vec3d, kBatch> points;
       std::array<std::uint8_t, kBatch> in;
-      for (int halving = 0; halving < kHalvings; ++halving) {
+      for (int halving = 0; halving < halvings; ++halving) {
         for (std::size_t e = 0; e < count; ++e) {
           const Key key = edges[begin + e];
           points[e] = lattice.position(lattice.inside.ijk(key / 3));
@@ -111,10 +112,11 @@ std::span<const Vec3i> cellsAround(const Vec3i& a, int axis, const Vec3i& size,
 
 std::vector<Corners> openingCaps(const SolidTest& solid, const Vec3i& low,
                                  const Array3D<std::uint8_t>& inside,
-                                 const Array3D<float>& distances, const Progress& progress) {
+                                 const Array3D<float>& distances, bool fine,
+                                 const Progress& progress) {
   const Lattice lattice{inside, distances, cast<double>(low)};
   const std::vector<Key> edges = capEdges(lattice, progress);
-  const std::vector<float> shares = capCrossings(solid, lattice, edges, progress.part(0, 0.8));
+  const std::vector<float> shares = capCrossings(solid, lattice, edges, fine, progress.part(0, 0.8));
 
   // Where the surface crosses an edge of a cell: a cap as found, triangles about where the
   // distances of the ends say.

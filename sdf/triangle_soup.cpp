@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -71,9 +72,65 @@ std::vector<Vec3d> joinPoints(const TriangleMesh& mesh, const Vec3d& origin, dou
   return points;
 }
 
-// Leaves out triangles without area, and of equal ones all but what is left when opposite ones
-// have cancelled.
-void dropDegenerateAndRepeated(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) {
+// A flat quadrilateral that is there from both sides, cut along one diagonal on one side and along
+// the other on the other: cuts both along the same one, so that its triangles are equal.
+void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) {
+  struct Quad {
+    Triangle left, right;              // from the diagonal's ends to a corner on each side
+    std::array<std::uint32_t, 4> key;  // the corners, sorted
+    std::uint32_t t, u;
+    Vec3d normal;
+    bool operator<(const Quad& o) const { return std::tie(key, t, u) < std::tie(o.key, o.t, o.u); }
+  };
+  const auto normalOf = [&](const Triangle& t) {
+    return normalized(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
+  };
+  constexpr double kFlat = 0.9999;  // the cosine of the angle at the diagonal
+  std::vector<Quad> quads;
+  const std::vector<Side> sides = sortedSides(triangles);
+  forEdges(sides, [&](std::size_t b, std::size_t e) {
+    if (e - b != 2 || sides[b].upwards == sides[b + 1].upwards) return;
+    const auto from = [&](const Side& s) {
+      const Triangle& t = triangles[s.triangle];
+      return Triangle{t[s.side], t[(s.side + 1) % 3], t[(s.side + 2) % 3]};
+    };
+    Quad q{from(sides[b]), from(sides[b + 1]), {}, sides[b].triangle, sides[b + 1].triangle, {}};
+    q.normal = normalOf(q.left);
+    if (!(dot(q.normal, normalOf(q.right)) > kFlat)) return;
+    q.key = {q.left[0], q.left[1], q.left[2], q.right[2]};
+    std::sort(q.key.begin(), q.key.end());
+    quads.push_back(q);
+  });
+  tbb::parallel_sort(quads.begin(), quads.end());
+  std::vector<std::uint8_t> used(triangles.size());
+  for (std::size_t b = 0, e = 0; b < quads.size(); b = e) {
+    while (e < quads.size() && quads[e].key == quads[b].key) ++e;
+    const Quad& first = quads[b];
+    for (const Quad& q : std::span<const Quad>(quads.data() + b + 1, quads.data() + e)) {
+      const bool otherDiagonal =
+          std::min(q.left[0], q.left[1]) != std::min(first.left[0], first.left[1]) ||
+          std::max(q.left[0], q.left[1]) != std::max(first.left[0], first.left[1]);
+      if (!otherDiagonal || dot(q.normal, first.normal) > -kFlat || used[q.t] || used[q.u])
+        continue;
+      used[q.t] = used[q.u] = 1;
+      const auto [low, high, c] = q.left;
+      const std::uint32_t d = q.right[2];
+      triangles[q.t] = {low, d, c};
+      triangles[q.u] = {d, high, c};
+    }
+    used[first.t] = used[first.u] = 1;
+  }
+}
+
+// Triangles without those that have no area, and of equal ones what is left when opposite ones have
+// cancelled; and one of each set that cancelled.
+struct Distinct {
+  std::vector<Triangle> triangles;
+  std::vector<Triangle> cancelled;
+};
+
+Distinct distinctTriangles(const std::vector<Vec3d>& points,
+                           const std::vector<Triangle>& triangles) {
   struct Keyed {
     Triangle key;  // the corners, sorted
     std::uint32_t triangle;
@@ -94,19 +151,25 @@ void dropDegenerateAndRepeated(const std::vector<Vec3d>& points, std::vector<Tri
     keyed.push_back(k);
   }
   tbb::parallel_sort(keyed.begin(), keyed.end());
-  std::vector<std::uint32_t> kept;
+  std::vector<std::uint32_t> kept, cancelled;
   for (std::size_t b = 0, e = 0; b < keyed.size(); b = e) {
     int net = 0;
     for (; e < keyed.size() && keyed[e].key == keyed[b].key; ++e) net += keyed[e].even ? 1 : -1;
-    if (net == 0) continue;
+    if (net == 0) {
+      cancelled.push_back(keyed[b].triangle);
+      continue;
+    }
     std::size_t k = b;
     while (keyed[k].even != (net > 0)) ++k;
     kept.push_back(keyed[k].triangle);
   }
-  std::sort(kept.begin(), kept.end());
-  std::vector<Triangle> result(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) result[i] = triangles[kept[i]];
-  triangles = std::move(result);
+  const auto inOrder = [&](std::vector<std::uint32_t>& which) {
+    std::sort(which.begin(), which.end());
+    std::vector<Triangle> result;
+    for (const std::uint32_t t : which) result.push_back(triangles[t]);
+    return result;
+  };
+  return {inOrder(kept), inOrder(cancelled)};
 }
 
 // Turns the triangles of each part that is connected across edges of two to face one way, unless
@@ -154,6 +217,71 @@ void orient(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) 
     for (const std::uint32_t t : part)
       if ((way[t] > 0) != (balance >= 0)) std::swap(triangles[t][1], triangles[t][2]);
   }
+}
+
+// Whether all triangles lie in parallel planes.
+bool isFlat(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles) {
+  Vec3d first{};
+  for (const auto& [a, b, c] : triangles) {
+    const Vec3d n = normalized(cross(points[b] - points[a], points[c] - points[a]));
+    if (first == Vec3d{}) first = n;
+    if (!(std::abs(dot(n, first)) > 1 - 1e-9)) return false;
+  }
+  return true;
+}
+
+double sixVolumes(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles) {
+  const Vec3d base = points[triangles[0][0]];
+  double sum = 0;
+  for (const auto& [a, b, c] : triangles)
+    sum += dot(points[a] - base, cross(points[b] - base, points[c] - base));
+  return sum;
+}
+
+// Of triangles that cancelled, those that are walls that a mesh has twice, once for each side:
+// shells of their own that are not flat, turned outwards, and patches that close an opening which
+// the other triangles leave. What is left are walls between two solids, and sheets.
+std::vector<Triangle> doubledWalls(const std::vector<Vec3d>& points,
+                                   const std::vector<Triangle>& others,
+                                   const std::vector<Triangle>& cancelled) {
+  if (cancelled.empty()) return {};
+  // Groups that are connected across edges, and the edges of both kinds of triangles.
+  std::vector<Triangle> all = cancelled;
+  all.insert(all.end(), others.begin(), others.end());
+  const std::size_t count = cancelled.size();
+  const std::vector<Side> sides = sortedSides(all);
+  DisjointSets sets(count);
+  forEdges(sides, [&](std::size_t b, std::size_t e) {
+    // In the order of triangles: those that cancelled come first.
+    for (std::size_t i = b + 1; i < e && sides[i].triangle < count; ++i)
+      sets.join(sides[b].triangle, sides[i].triangle);
+  });
+  std::vector<std::uint8_t> touches(count);  // by a group's root: an edge of other triangles
+  std::vector<std::int64_t> opened(count);   // edges that it opens, less those that it closes
+  forEdges(sides, [&](std::size_t b, std::size_t e) {
+    std::size_t mine = b;
+    while (mine < e && sides[mine].triangle < count) ++mine;
+    if (mine == b || mine == e) return;
+    const std::size_t root = sets.find(sides[b].triangle);
+    touches[root] = 1;
+    const bool openBefore = (e - mine) % 2 != 0, openAfter = (e - b) % 2 != 0;
+    opened[root] += int{openAfter} - int{openBefore};
+  });
+  std::vector<std::vector<Triangle>> groups(count);
+  for (std::uint32_t t = 0; t < count; ++t) groups[sets.find(t)].push_back(cancelled[t]);
+  std::vector<Triangle> walls;
+  for (std::size_t root = 0; root < count; ++root) {
+    std::vector<Triangle>& group = groups[root];
+    if (group.empty()) continue;
+    if (touches[root] ? opened[root] >= 0 : isFlat(points, group)) continue;
+    if (!touches[root]) {
+      orient(points, group);
+      if (sixVolumes(points, group) < 0)
+        for (Triangle& t : group) std::swap(t[1], t[2]);
+    }
+    walls.insert(walls.end(), group.begin(), group.end());
+  }
+  return walls;
 }
 
 // Joins rim points that are less than kRimGap apart.
@@ -230,7 +358,14 @@ TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scal
   for (auto& t : soup.triangles)
     for (std::uint32_t& v : t) v = indices[v];
   report(0.2);
-  dropDegenerateAndRepeated(soup.points, soup.triangles);
+  {
+    matchDiagonals(soup.points, soup.triangles);
+    Distinct distinct = distinctTriangles(soup.points, soup.triangles);
+    const std::vector<Triangle> walls =
+        doubledWalls(soup.points, distinct.triangles, distinct.cancelled);
+    soup.triangles = std::move(distinct.triangles);
+    soup.triangles.insert(soup.triangles.end(), walls.begin(), walls.end());
+  }
   report(0.4);
   orient(soup.points, soup.triangles);
   report(0.6);

@@ -46,13 +46,14 @@ double squaredBoxDistance(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
 struct TriangleTree::Build {
   std::vector<Vec3d> centroids;
   Progress progress;
+  For purpose;
 };
 
-TriangleTree::TriangleTree(std::vector<Corners> triangles, const Progress& progress)
+TriangleTree::TriangleTree(std::vector<Corners> triangles, const Progress& progress, For purpose)
     : triangles_(std::move(triangles)) {
   const auto n = static_cast<std::uint32_t>(triangles_.size());
   if (n == 0) return;
-  Build with{std::vector<Vec3d>(n), progress};
+  Build with{std::vector<Vec3d>(n), progress, purpose};
   order_.resize(n);
   for (std::uint32_t t = 0; t < n; ++t) {
     order_[t] = t;
@@ -85,7 +86,7 @@ void TriangleTree::build(const Build& with, std::uint32_t node, std::uint32_t fi
         n.high = max(n.high, corner);
       }
     }
-    setMoments(node);
+    setMoments(node, with.purpose);
     return;
   }
   Vec3d low = Vec3d{1, 1, 1} * std::numeric_limits<double>::infinity(), high = -low;
@@ -115,10 +116,10 @@ void TriangleTree::build(const Build& with, std::uint32_t node, std::uint32_t fi
   }
   n.low = min(nodes_[left].low, nodes_[right].low);
   n.high = max(nodes_[left].high, nodes_[right].high);
-  setMoments(node);
+  setMoments(node, with.purpose);
 }
 
-void TriangleTree::setMoments(std::uint32_t node) {
+void TriangleTree::setMoments(std::uint32_t node, For purpose) {
   const Node& n = nodes_[node];
   ClusterMoments& m = moments_[node];
   Vec3d weighted{};
@@ -133,6 +134,11 @@ void TriangleTree::setMoments(std::uint32_t node) {
   m.center = weight > 0 ? weighted / weight : (n.low + n.high) * 0.5;
   double radius2 = 0;
   for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+    for (const Vec3d& corner : leaves_[i]) {
+      const Vec3d d = corner - m.center;
+      radius2 = std::max(radius2, dot(d, d));
+    }
+    if (purpose == For::Distances) continue;
     const Vec3d a = areaVector(leaves_[i]);
     const Vec3d middle = centroid(leaves_[i]);
     const Vec3d c = middle - m.center;
@@ -153,8 +159,6 @@ void TriangleTree::setMoments(std::uint32_t node) {
       xy += o.x * o.y / 12;
       xz += o.x * o.z / 12;
       yz += o.y * o.z / 12;
-      const Vec3d d = corner - m.center;
-      radius2 = std::max(radius2, dot(d, d));
     }
     m.second[0] += xx * a.x;
     m.second[1] += yy * a.y;

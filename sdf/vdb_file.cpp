@@ -30,9 +30,10 @@ using openvdb::Coord;
 using openvdb::CoordBBox;
 
 // Metadata of ours: the field's truncation, which a full field's background does not give, and 1
-// for each axis along which the field is periodic.
+// for each axis along which the field is periodic; and how many times as large the file is.
 constexpr const char* kTruncation = "exemplar_truncation";
 constexpr const char* kWraps = "exemplar_wraps";
+constexpr const char* kUnit = "exemplar_unit";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw InputError(path.string() + ": " + what);
@@ -71,6 +72,19 @@ CoordBBox sampleBox(const openvdb::GridBase& grid, const fs::path& path) {
   return box;
 }
 
+// How many times as large a field is written: OpenVDB refuses transforms whose determinant is below
+// 3e-15.
+double unitFor(double voxelSize) {
+  double unit = 1;
+  while (voxelSize * unit < 2e-5 && unit < 1e300) unit *= 1000;
+  return unit;
+}
+
+double unitOf(const openvdb::GridBase& grid) {
+  const auto stated = grid.getMetadata<openvdb::DoubleMetadata>(kUnit);
+  return stated && stated->value() > 0 && std::isfinite(stated->value()) ? stated->value() : 1;
+}
+
 struct Placement {
   double voxelSize;
   Vec3d origin;  // of the box's first sample
@@ -92,7 +106,8 @@ Placement placement(const openvdb::GridBase& grid, const CoordBBox& box, const f
   if (!cubes || !std::isfinite(first.length()))
     fail(path, "the voxels of the grid \"" + grid.getName() +
                    "\" are no axis-aligned cubes; resample it to a uniform voxel size");
-  return {h, {first[0], first[1], first[2]}};
+  const double unit = unitOf(grid);
+  return {h / unit, Vec3d{first[0], first[1], first[2]} / unit};
 }
 
 Vec3i sizeOf(const CoordBBox& box) {
@@ -146,7 +161,15 @@ DistanceField fieldFrom(const Grid& grid, const fs::path& path, const Progress& 
     for (float& v : field.values.values()) v = 0.5f - v;
     return redistance(field, {}, progress.part(0.5, 1));
   }
-  field.truncation = std::max({static_cast<float>(std::abs(grid.background())), -low, high});
+  float background = static_cast<float>(std::abs(grid.background()));
+  if (const double unit = unitOf(grid); unit != 1) {
+    const auto scaled = [&](float v) { return static_cast<float>(v / unit); };
+    for (float& v : field.values.values()) v = scaled(v);
+    low = scaled(low);
+    high = scaled(high);
+    background = scaled(background);
+  }
+  field.truncation = std::max({background, -low, high});
   if (const auto stated = grid.template getMetadata<openvdb::FloatMetadata>(kTruncation);
       stated && stated->value() >= field.truncation) {
     field.truncation = stated->value();
@@ -157,8 +180,11 @@ DistanceField fieldFrom(const Grid& grid, const fs::path& path, const Progress& 
 template <class Grid>
 void place(Grid& grid, const DistanceField& field) {
   const Vec3i size = field.size();
-  auto transform = openvdb::math::Transform::createLinearTransform(field.voxelSize);
-  transform->postTranslate({field.origin.x, field.origin.y, field.origin.z});
+  const double unit = unitFor(field.voxelSize);
+  const Vec3d origin = field.origin * unit;
+  auto transform = openvdb::math::Transform::createLinearTransform(field.voxelSize * unit);
+  transform->postTranslate({origin.x, origin.y, origin.z});
+  if (unit != 1) grid.insertMeta(kUnit, openvdb::DoubleMetadata(unit));
   grid.setTransform(transform);
   stateBox(grid, size);
   grid.setCreator("exemplar");
@@ -175,6 +201,41 @@ void requireSamples(const fs::path& path, std::size_t count) {
   if (count == 0) fail(path, "cannot be written: the field has no samples");
 }
 
+std::string named(const openvdb::GridBase& grid) {
+  return "\"" + grid.getName() + "\" (" + grid.valueType() + ")";
+}
+
+// The grid to read as distances: of floats or doubles.
+openvdb::GridBase::Ptr chooseGrid(const fs::path& path, const openvdb::GridPtrVec& grids,
+                                  const ReadVdbOptions& options) {
+  openvdb::GridBase::Ptr chosen;
+  int best = -1;
+  for (const auto& grid : grids) {
+    const bool isFloat = grid->isType<openvdb::FloatGrid>();
+    if (!isFloat && !grid->isType<openvdb::DoubleGrid>()) continue;
+    if (!options.grid.empty() && grid->getName() != options.grid) continue;
+    const int rank = (grid->getGridClass() == openvdb::GRID_LEVEL_SET ? 4 : 0) +
+                     (grid->getName() == "density" ? 2 : 0) + (isFloat ? 1 : 0);
+    if (rank <= best) continue;
+    best = rank;
+    chosen = grid;
+  }
+  std::string names;
+  for (const auto& grid : grids)
+    if (grid != chosen) names += (names.empty() ? "" : ", ") + named(*grid);
+  if (!chosen) {
+    fail(path, "holds no grid of floats" +
+                   (options.grid.empty() ? std::string() : " named \"" + options.grid + "\"") +
+                   (names.empty() ? std::string() : "; it has " + names));
+  }
+  if (!names.empty() && options.grid.empty()) {
+    warn(options.warnings, path.string() + ": the grid " + named(*chosen) +
+                               " is read, others are left out: " + names +
+                               "; `grid` chooses one by its name");
+  }
+  return chosen;
+}
+
 }  // namespace
 
 void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wraps,
@@ -182,12 +243,14 @@ void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wrap
   requireSamples(path, field.values.count());
   progress.report("packing the volume", 0);
   openvdbReady();
+  const auto unit = static_cast<float>(unitFor(field.voxelSize));
   float background = field.truncation;
   if (!std::isfinite(background)) {
     background = 0;
     for (const float v : field.values.values()) background = std::max(background, std::abs(v));
     background = std::max(background, static_cast<float>(field.voxelSize));
   }
+  background *= unit;
   const auto grid = openvdb::FloatGrid::create(background);
   grid->setName("surface");
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
@@ -197,10 +260,15 @@ void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wrap
     grid->insertMeta(kWraps, openvdb::Vec3IMetadata({wraps.x, wraps.y, wraps.z}));
   }
   const Vec3i size = field.size();
+  Array3D<float> scaled;
+  if (unit != 1) {
+    scaled = field.values;
+    for (float& v : scaled.values()) v *= unit;
+  }
   // The view is only read, but OpenVDB has none of constant samples.
   const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
       CoordBBox({0, 0, 0}, {size.x - 1, size.y - 1, size.z - 1}),
-      const_cast<float*>(field.values.data()));
+      const_cast<float*>(unit != 1 ? scaled.data() : field.values.data()));
   openvdb::tools::copyFromDense(dense, *grid, 0.0f);
   progress.report("packing the volume", 0.3);
   for (auto leaf = grid->tree().beginLeaf(); leaf; ++leaf) {
@@ -213,19 +281,17 @@ void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wrap
   writeVdbGrids(path, {grid}, progress.part(0.5, 1));
 }
 
-DistanceField readVdb(const fs::path& path, Axes* wraps, const Progress& progress) {
+DistanceField readVdb(const fs::path& path, const ReadVdbOptions& options, Axes* wraps,
+                      const Progress& progress) {
   progress.report("reading the volume", 0);
   DistanceField field = withGrids<DistanceField>(path, [&](const openvdb::GridPtrVec& grids) {
+    const openvdb::GridBase::Ptr chosen = chooseGrid(path, grids, options);
     const auto read = [&](const auto& grid) {
       if (wraps) *wraps = wrapsOf(grid);
       return fieldFrom(grid, path, progress.part(0.3, 1));
     };
-    if (const auto grid = firstGrid<openvdb::FloatGrid>(grids, "")) return read(*grid);
-    if (const auto grid = firstGrid<openvdb::DoubleGrid>(grids, "")) return read(*grid);
-    std::string names;
-    for (const auto& grid : grids)
-      names += (names.empty() ? "" : ", ") + grid->getName() + " (" + grid->valueType() + ")";
-    fail(path, "holds no grid of floats" + (names.empty() ? std::string() : "; it has " + names));
+    if (const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(chosen)) return read(*grid);
+    return read(*openvdb::gridPtrCast<openvdb::DoubleGrid>(chosen));
   });
   progress.report("reading the volume", 1);
   return field;

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/axes.h"
 #include "core/origin.h"
 #include "core/progress.h"
+#include "core/warnings.h"
 #include "sdf/distance_field.h"
 
 namespace exemplar {
@@ -15,17 +17,24 @@ namespace exemplar {
 /// Writes a field as one float grid "surface" of class level set (`.vdb`), world transform
 /// included, as Blender, Houdini and `vdb_print` read it. Samples outside ±truncation become
 /// background tiles. Whole or not at all. `wraps`: the axes along which the field is periodic, its
-/// last sample beside its first; the file records them. Throws `InputError` naming the file, and
-/// `Cancelled`.
+/// last sample beside its first; the file records them. OpenVDB has no voxels below 0.00001:
+/// smaller ones are written 1,000 (or 1,000,000, ...) times as large, millimeters for meters, which
+/// the file records and `readVdb` takes back. Throws `InputError` naming the file, and `Cancelled`.
 void writeVdb(const std::filesystem::path& path, const DistanceField& field, const Axes& wraps = {},
               const Progress& progress = {});
 
-/// Reads the first float grid of a `.vdb` (a level set, or a fog volume whose 0.5 becomes the
-/// surface) as a dense field over its active box. Voxels must be cubes. Throws `InputError` naming
-/// the file, and `Cancelled`. `wraps` receives the axes that `writeVdb` recorded, none for files of
-/// other programs.
-DistanceField readVdb(const std::filesystem::path& path, Axes* wraps = nullptr,
-                      const Progress& progress = {});
+struct ReadVdbOptions {
+  std::string grid;              ///< the name of the grid to read; empty: see `readVdb`
+  Warnings* warnings = nullptr;  ///< which grids are left out where the file has several
+};
+
+/// Reads a grid of floats or doubles of a `.vdb` (a level set, or a fog volume whose 0.5 becomes
+/// the surface) as a dense field over its active box: the one that the options name, else the first
+/// level set, else the first one named "density", else the first. Voxels must be cubes. Throws
+/// `InputError` naming the file, and `Cancelled`. `wraps` receives the axes that `writeVdb`
+/// recorded, none for files of other programs.
+DistanceField readVdb(const std::filesystem::path& path, const ReadVdbOptions& options = {},
+                      Axes* wraps = nullptr, const Progress& progress = {});
 
 /// Origins as an int32 vector grid "origin" (example cell i, j, k) and an int32 grid "source"
 /// (example and quarter turns) on the transform of `field`, and back.

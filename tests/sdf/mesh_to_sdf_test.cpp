@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -281,6 +282,25 @@ TEST(MeshToSdf, OfAQuarterOfTheMeshIsAQuarterOfTheField) {
     ASSERT_EQ(quarter.values.values()[s], field.values.values()[s] * 0.25f);
 }
 
+TEST(MeshToSdf, IsTheSameAtAnyScaleAndFarFromTheOrigin) {
+  const TriangleMesh mesh = makeBox({{0, 0, 0}, {2, 3, 4}});
+  const MeshToSdfOptions options{.resolution = 16, .padding = 2};
+  const DistanceField field = meshToSdf(mesh, options);
+  for (const double scale : {1e-20, 1e-7, 1e-4, 1e6})
+    for (const double far : {0.0, 1e8}) {
+      const DistanceField other = meshToSdf(moved(mesh,
+                                                  [&](const Vec3d& p) {
+                                                    return (p + Vec3d{far, -far, far}) * scale;
+                                                  }),
+                                            options);
+      ASSERT_EQ(other.size(), field.size()) << scale << ", " << far;
+      // Steps of doubles at 1e8 are 1.5e-8, 6e-8 voxels.
+      for (std::size_t s = 0; s < field.values.count(); ++s)
+        ASSERT_NEAR(other.values.values()[s] / scale, field.values.values()[s], 1e-6)
+            << scale << ", " << far;
+    }
+}
+
 TEST(MeshToSdf, FollowsARotationOfTheMesh) {
   const TriangleMesh mesh = joined(makeTorus({0.1, 0, 0}, {0, 0, 1}, 0.6, 0.2),
                                    makeBox({{-0.2, -0.3, -0.4}, {0.5, 0.3, 0.1}}));
@@ -452,6 +472,68 @@ TEST(MeshToSdf, OfAMeshThatIsThereTwiceIsThatOfOne) {
   EXPECT_EQ(once.values, twice.values);
 }
 
+TEST(MeshToSdf, OfADoubleSidedMeshIsThatOfItsSolid) {
+  const TriangleMesh box = makeBox({{0, 0, 0}, {2, 3, 4}});
+  const MeshToSdfOptions options{.resolution = 24, .padding = 2};
+  const DistanceField once = meshToSdf(box, options);
+  ASSERT_GT(countInside(once), 1000);
+  // All faces twice, in either order; some of them; and three times.
+  EXPECT_EQ(meshToSdf(joined(box, flipped(box)), options).values, once.values);
+  EXPECT_EQ(meshToSdf(joined(flipped(box), box), options).values, once.values);
+  for (const std::size_t some : {1, 2, 5, 11}) {
+    TriangleMesh part = flipped(box);
+    part.triangles.resize(some);
+    EXPECT_EQ(meshToSdf(joined(box, part), options).values, once.values) << some;
+  }
+  EXPECT_EQ(meshToSdf(joined(joined(box, box), flipped(box)), options).values, once.values);
+  // Two double-sided solids that overlap, one of them facing inwards first.
+  const TriangleMesh other = makeBox({{1, 1, 1}, {3, 2, 5}});
+  const DistanceField both = meshToSdf(joined(box, other), options);
+  const DistanceField doubled =
+      meshToSdf(joined(joined(box, flipped(box)), joined(flipped(other), other)), options);
+  ASSERT_EQ(doubled.size(), both.size());
+  for (std::size_t s = 0; s < both.values.count(); ++s)
+    ASSERT_NEAR(doubled.values.values()[s], both.values.values()[s], 0.25 * both.voxelSize);
+  // Without a top, it is as the one-sided one.
+  const TriangleMesh open = openBox({{0, 0, 0}, {2, 3, 4}});
+  EXPECT_EQ(meshToSdf(joined(open, flipped(open)), options).values,
+            meshToSdf(open, options).values);
+}
+
+TEST(MeshToSdf, SidesOfADoubleSidedMeshMayBeCutAlongOtherDiagonals) {
+  // Quadrilaterals as files have them: the fan of the reversed one begins at another corner.
+  const std::array<std::array<std::uint32_t, 4>, 6> faces{
+      {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  TriangleMesh box;
+  box.positions = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0},
+                   {0, 0, 4}, {2, 0, 4}, {2, 3, 4}, {0, 3, 4}};
+  const auto addFace = [](TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                          std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (const auto& [a, b, c, d] : faces) addFace(box, a, b, c, d);
+  const MeshToSdfOptions options{.resolution = 24, .padding = 2};
+  const DistanceField once = meshToSdf(box, options);
+  ASSERT_GT(countInside(once), 1000);
+  // All faces, some of them, and with some cut alike; with the points of each face its own.
+  for (const std::size_t some : {1, 3, 6})
+    for (const std::size_t alike : {0, 1, 2}) {
+      TriangleMesh doubled = box;
+      for (std::size_t f = 0; f < some; ++f) {
+        const auto& [a, b, c, d] = faces[f];
+        if (f < alike) {
+          addFace(doubled, c, b, a, d);
+        } else {
+          addFace(doubled, d, c, b, a);
+        }
+      }
+      EXPECT_LT(test::worstError(meshToSdf(doubled, options), test::box({{0, 0, 0}, {2, 3, 4}})),
+                1e-5)
+          << some << ", " << alike;
+    }
+}
+
 TEST(MeshToSdf, KeepsHollowsThatFaceOutwards) {
   const TriangleMesh shell = joined(fineSphere({}, 1), flipped(fineSphere({}, 0.6)));
   const Shape exact = [](const Vec3d& p) { return std::max(length(p) - 1, 0.6 - length(p)); };
@@ -564,6 +646,73 @@ TEST(MeshToSdf, ReportsItsProgressAndStopsWhereItIsCancelled) {
           },
           20);
     }
+}
+
+// The solid angle of a triangle in units of the full sphere (van Oosterom, Strackee 1983).
+double windingOf(const Corners& t, const Vec3d& p) {
+  const Vec3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
+  const double la = length(a), lb = length(b), lc = length(c);
+  return std::atan2(dot(a, cross(b, c)),
+                    la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb) /
+         6.28318530717958648;
+}
+
+// Single triangles that cross each other everywhere.
+TriangleMesh crossingTriangles(int count, int seed) {
+  const Random random(static_cast<std::uint64_t>(seed));
+  TriangleMesh soup;
+  for (int t = 0; t < count; ++t) {
+    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+    for (int c = 0; c < 3; ++c)
+      soup.positions.push_back(
+          {random.uniform(t, 3 * c), random.uniform(t, 3 * c + 1), random.uniform(t, 3 * c + 2)});
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+// Samples whose sign differs from that of the sum over all triangles, and how many samples have
+// one.
+std::pair<int, int> wrongSigns(const TriangleMesh& mesh, const DistanceField& field) {
+  int wrong = 0, sure = 0;
+  for (std::size_t s = 0; s < field.values.count(); ++s) {
+    const Vec3d p = field.position(cast<double>(field.values.ijk(s)));
+    double winding = 0;
+    for (const auto& [a, b, c] : mesh.triangles)
+      winding += windingOf({mesh.positions[a], mesh.positions[b], mesh.positions[c]}, p);
+    // Winding numbers are right to within 0.01.
+    if (std::abs(std::abs(winding) - 0.5) < 0.01) continue;
+    ++sure;
+    wrong += (std::abs(winding) > 0.5) != (field.values.values()[s] < 0);
+  }
+  return {wrong, sure};
+}
+
+TEST(MeshToSdf, HasTheSignOfTheWindingNumberInSoups) {
+  // From few triangles, which are cut finely, to so many crossings that pieces get longer.
+  for (const int count : {3, 20, 120}) {
+    const TriangleMesh soup = crossingTriangles(count, count);
+    const DistanceField field = meshToSdf(soup, {.resolution = 20, .padding = 1});
+    const auto [wrong, sure] = wrongSigns(soup, field);
+    EXPECT_EQ(wrong, 0) << count;
+    EXPECT_GT(sure, 5000) << count;
+    // And where the sign changes, the surface is near: the field is a distance.
+    EXPECT_LT(steepest(field), 2.0) << count;
+  }
+}
+
+TEST(MeshToSdf, HasTheSignOfTheWindingNumberInClosedMeshesThatCrossThemselves) {
+  // Each triangle crosses several others.
+  TriangleMesh mesh = makeSphere({}, 1, 9);
+  const Random random(3);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    mesh.positions[v] +=
+        Vec3d{random.normal(v, 0), random.normal(v, 2), random.normal(v, 4)} * 0.15;
+  const DistanceField field = meshToSdf(mesh, {.resolution = 20, .padding = 1});
+  const auto [wrong, sure] = wrongSigns(mesh, field);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(sure, 5000);
+  EXPECT_LT(steepest(field), 2.0);
 }
 
 TEST(MeshToSdf, RefusesOptionsOutOfRangeInOneLine) {

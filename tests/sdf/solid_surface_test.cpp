@@ -39,7 +39,7 @@ SolidTest solidOf(const TriangleSoup& soup) { return SolidTest(soup, treeOf(soup
 
 std::vector<Corners> surfaceOf(const TriangleMesh& mesh, double reach = 1e9) {
   const TriangleSoup soup = makeSoup(mesh, {}, 1);
-  return boundingTriangles(soup, *treeOf(soup), solidOf(soup), {20, 20, 20}, reach);
+  return boundingTriangles(soup, *treeOf(soup), solidOf(soup), {20, 20, 20}, reach).triangles;
 }
 
 TEST(BoundingTriangles, OfASimpleSolidAreItsOwn) {
@@ -199,7 +199,7 @@ TEST(OpeningCaps, CloseTheOpeningOfACylinder) {
   for (std::size_t s = 0; s < in.count(); ++s)
     in.values()[s] = inside(solid, cast<double>(in.ijk(s)));
   Array3D<float> distances(size);
-  const auto bounding = boundingTriangles(soup, *treeOf(soup), solid, size, 9);
+  const auto bounding = boundingTriangles(soup, *treeOf(soup), solid, size, 9).triangles;
   sampleDistances(TriangleTree(bounding), 2, {}, distances);
   const auto caps = openingCaps(solid, {}, in, distances);
   // Two discs, which bulge inwards and end somewhere within the rim's cells.

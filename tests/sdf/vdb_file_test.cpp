@@ -62,7 +62,7 @@ TEST(VdbFile, RecordsTheAxesAlongWhichAFieldIsPeriodic) {
   for (const Axes& recorded : {Axes{true, false, true}, Axes::none()}) {
     writeVdb(folder / "field.vdb", torusField(0.18), recorded);
     Axes wraps = Axes::every();
-    expectSame(readVdb(folder / "field.vdb", &wraps), torusField(0.18));
+    expectSame(readVdb(folder / "field.vdb", {}, &wraps), torusField(0.18));
     EXPECT_EQ(wraps, recorded);
   }
 }
@@ -183,6 +183,66 @@ TEST(VdbFile, PicksTheFirstGridOfFloats) {
   writeGrid(folder / "none.vdb", vectors);
   EXPECT_THAT(inputError([&] { readVdb(folder / "none.vdb"); }),
               testing::AllOf(HasSubstr("no grid of floats"), HasSubstr("velocity")));
+}
+
+TEST(VdbFile, PrefersALevelSetAndReadsTheGridThatIsNamed) {
+  const TemporaryFolder folder;
+  const auto ball = [](float radius, const char* name) {
+    const auto grid =
+        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(radius, {0, 0, 0}, 0.1f);
+    grid->setName(name);
+    return grid;
+  };
+  const auto heat = ball(0.5f, "temperature"), density = ball(0.8f, "density"),
+             surface = ball(1.0f, "surface");
+  openvdb::tools::sdfToFogVolume(*heat);
+  openvdb::tools::sdfToFogVolume(*density);
+  const auto path = folder / "three.vdb";
+  openvdb::io::File(path.string()).write(openvdb::GridPtrVec{heat, density, surface});
+  Warnings warnings;
+  EXPECT_LT(test::worstError(readVdb(path, {.warnings = &warnings}), test::sphere({}, 1)), 1e-4);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], testing::AllOf(testing::StartsWith(path.string() + ": "),
+                                          HasSubstr("grid \"surface\" (float) is read"),
+                                          HasSubstr("out: \"temperature\" (float), \"density\""),
+                                          HasSubstr("`grid`"), Not(HasSubstr("\n"))));
+  // By name, without a word; the fog's 0.5 is 1.5 voxels deep.
+  warnings.clear();
+  const DistanceField hot = readVdb(path, {.grid = "temperature", .warnings = &warnings});
+  EXPECT_LT(test::worstError(hot, test::sphere({}, 0.5 - 0.15)), 0.2);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_THAT(inputError([&] { readVdb(path, {.grid = "smoke"}); }),
+              testing::AllOf(HasSubstr("named \"smoke\""), HasSubstr("\"surface\" (float)")));
+  // Without a level set, a density is what a person sees.
+  openvdb::io::File(path.string()).write(openvdb::GridPtrVec{heat, density});
+  EXPECT_LT(test::worstError(readVdb(path), test::sphere({}, 0.8 - 0.15)), 0.2);
+  // One grid alone is no news.
+  openvdb::io::File(path.string()).write(openvdb::GridPtrVec{surface});
+  readVdb(path, {.warnings = &warnings});
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(VdbFile, KeepsVoxelsOfAnySize) {
+  const TemporaryFolder folder;
+  for (const double scale : {1e-12, 1e-7, 1e-4, 1e6, 1e9}) {
+    DistanceField field = torusField(0.18);
+    field.voxelSize *= scale;
+    field.origin = field.origin * scale + Vec3d{1, 1, 1} * (20 * scale);
+    field.truncation *= static_cast<float>(scale);
+    for (float& v : field.values.values()) v *= static_cast<float>(scale);
+    writeVdb(folder / "field.vdb", field);
+    const DistanceField read = readVdb(folder / "field.vdb");
+    ASSERT_EQ(read.size(), field.size()) << scale;
+    EXPECT_NEAR(read.voxelSize / field.voxelSize, 1, 1e-9) << scale;
+    EXPECT_NEAR(length(read.origin - field.origin) / field.voxelSize, 0, 1e-6) << scale;
+    EXPECT_NEAR(read.truncation / field.truncation, 1, 1e-6) << scale;
+    // Rounding to floats, twice.
+    for (std::size_t s = 0; s < field.values.count(); ++s)
+      ASSERT_NEAR(read.values.values()[s] / field.truncation,
+                  field.values.values()[s] / field.truncation, 1e-6)
+          << scale;
+    writeOriginsVdb(folder / "origins.vdb", Origins(field.size()), field);
+  }
 }
 
 TEST(VdbFile, RefusesVoxelsThatAreNoCubes) {
@@ -326,7 +386,7 @@ TEST(VdbFile, ReportsItsProgressAndStopsWhereItIsCancelled) {
   const DistanceField field = torusField(0.18);
   const std::filesystem::path path = folder / "field.vdb", origins = folder / "origins.vdb";
   expectReportsAndStops([&](const Progress& p) { writeVdb(path, field, {}, p); }, 4);
-  expectReportsAndStops([&](const Progress& p) { readVdb(path, nullptr, p); }, 4);
+  expectReportsAndStops([&](const Progress& p) { readVdb(path, {}, nullptr, p); }, 4);
   const Origins from(field.size(), Origin(Vec3i{1, 2, 3}));
   expectReportsAndStops([&](const Progress& p) { writeOriginsVdb(origins, from, field, p); }, 4);
   expectReportsAndStops([&](const Progress& p) { readOriginsVdb(origins, p); }, 4);

@@ -139,6 +139,36 @@ void meshToSdfOverlapping(benchmark::State& state, double holes) {
   report(state, field, static_cast<double>(mesh.triangles.size()));
 }
 
+// Large single triangles that cross each other everywhere: n of them cross about n^2 / 12 times.
+void meshToSdfCrossing(benchmark::State& state) {
+  const Random random(5);
+  TriangleMesh mesh;
+  for (std::uint32_t v = 0; v < 3 * state.range(0); ++v) {
+    mesh.positions.push_back({random.uniform(v, 0), random.uniform(v, 1), random.uniform(v, 2)});
+    if (v % 3 == 2) mesh.triangles.push_back({v - 2, v - 1, v});
+  }
+  MeshToSdfOptions options;
+  options.resolution = 48;
+  DistanceField field;
+  for (auto _ : state) field = meshToSdf(mesh, options);
+  report(state, field, static_cast<double>(mesh.triangles.size()));
+}
+
+// A closed scan so noisy that most of its triangles cross others: 20 frequency^2 triangles.
+void meshToSdfNoisy(benchmark::State& state) {
+  const Random random(5);
+  TriangleMesh mesh = makeSphere({}, 1, static_cast<int>(state.range(0)));
+  const double noise = 1.0 / static_cast<double>(state.range(0));
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    mesh.positions[v] +=
+        Vec3d{random.normal(v, 0), random.normal(v, 2), random.normal(v, 4)} * noise;
+  MeshToSdfOptions options;
+  options.resolution = 64;
+  DistanceField field;
+  for (auto _ : state) field = meshToSdf(mesh, options);
+  report(state, field, static_cast<double>(mesh.triangles.size()));
+}
+
 DistanceField warpedBall(int n) {
   DistanceField field = meshToSdf(makeSphere({}, 1, 30), Ball(n, 1, 6).options);
   for (std::size_t s = 0; s < field.values.count(); ++s)
@@ -241,6 +271,26 @@ EXEMPLAR_BENCH("mesh/overlapping", meshToSdfOverlapping, closed, 0.0)
     ->Arg(128)
     ->ArgName("n");
 EXEMPLAR_BENCH("mesh/open", meshToSdfOverlapping, open, 0.05)->Arg(64)->Arg(128)->ArgName("n");
+BENCHMARK(meshToSdfCrossing)
+    ->Name("mesh/crossing")
+    ->Arg(30)
+    ->Arg(100)
+    ->Arg(300)
+    ->Arg(1000)
+    ->ArgName("triangles")
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(meshToSdfNoisy)
+    ->Name("mesh/noisy")
+    ->Arg(12)
+    ->Arg(23)
+    ->Arg(46)
+    ->Arg(92)
+    ->ArgName("frequency")
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 BENCHMARK(bruteForce)
     ->Name("mesh/brute_force")
     ->Args({64, 8})
