@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -330,7 +331,8 @@ std::string rampPng() {
       }
     }
   }
-  const auto path = std::filesystem::temp_directory_path() / "exemplar_transfer_test.png";
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("exemplar_transfer_test_" + std::to_string(getpid()) + ".png");
   writePng(path, image);
   const std::string bytes = readFile(path);
   std::filesystem::remove(path);

@@ -61,7 +61,8 @@ void expectReportsAndStops(const Work& work, std::size_t least) {
     one.execute(
         [&] { EXPECT_TRUE(stopsAfter(reports, work)) << "after " << reports << " of " << count; });
   }
-  EXPECT_FALSE(stopsAfter(count + 1, work));
+  // With more threads there may be more reports than that.
+  one.execute([&] { EXPECT_FALSE(stopsAfter(count + 1, work)); });
 
   std::atomic<bool> half = false, cancel = false;
   std::thread other([&] {
