@@ -16,7 +16,7 @@ namespace exemplar {
 /// quadric error metrics", 1997) as meshoptimizer does it, once vertices at the same place have
 /// been joined. A mesh of so many parts that few triangles would be left to each (a soup whose
 /// triangles share nothing) is simplified by meshoptimizer's grid of cells, each of which keeps one
-/// vertex. About a second a million triangles, by one thread; deterministic.
+/// vertex. An estimated second a million triangles, by one thread; deterministic.
 TriangleMesh simplified(const TriangleMesh& mesh, std::int64_t triangles);
 
 }  // namespace exemplar

@@ -58,6 +58,8 @@ struct MeshToSdfOptions {
 /// 500 a triangle. The same bytes at any number of threads. Throws
 /// `InputError` for a mesh that does not `validate`, options out of range and fields that would not
 /// fit in memory, and `Cancelled`.
+///
+/// Where triangles cross very densely, creases are coarser than that (`sdf/solid_surface.h`).
 DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& options = {},
                         const Progress& progress = {});
 
