@@ -19,14 +19,16 @@ std::string readFile(const std::filesystem::path& path, const Progress& progress
 /// A path's ending in lower case, with its dot: ".obj"; empty where there is none.
 std::string lowerExtension(const std::filesystem::path& path);
 
-/// A file that is whole or not there: it is written under a temporary name beside its place, with
-/// the same ending, and renamed by `commit`. Without `commit` the temporary file is removed.
+/// A file that is whole or not there, whatever ends the program: until `commit` it has no name
+/// where the file system can do without (`O_TMPFILE`), else a hidden one beside its place. What is
+/// there already stays until then and keeps its permissions; a link is followed.
 ///
 ///     OutputFile out(path);
-///     writeWith(library, out.temporaryPath());   // or out.write(bytes)
+///     out.write(bytes);
 ///     out.commit();
 ///
-/// Every failure (no such folder, no permission, disk full) is an `InputError` naming `path`.
+/// Every failure (no such folder, no permission, disk full, a device) is an `InputError` naming
+/// `path`.
 class OutputFile {
  public:
   /// Fails at once where a file could not be created.
@@ -35,14 +37,16 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
-  const std::filesystem::path& temporaryPath() const { return temporary_; }
-  /// Makes `bytes` the temporary file's whole content. Throws `Cancelled`.
+  /// Makes `bytes` the file's whole content. Throws `Cancelled`.
   void write(std::string_view bytes, const Progress& progress = {});
   /// Puts the file in its place.
   void commit();
 
  private:
-  std::filesystem::path path_, temporary_;
+  std::filesystem::path path_;       ///< as it was given
+  std::filesystem::path place_;      ///< where the file will be
+  std::filesystem::path temporary_;  ///< its name before; empty where it has none
+  int descriptor_ = -1;
 };
 
 /// An `OutputFile` written and put in its place at once.

@@ -3,7 +3,7 @@
 
 #include "sdf/vdb_grids.h"
 
-#include <openvdb/io/File.h>
+#include <openvdb/io/Archive.h>
 #include <openvdb/io/Stream.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <cstring>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -68,6 +69,18 @@ class BytesBuffer : public std::streambuf {
   }
 };
 
+/// Writes what a file of the grids holds to memory: OpenVDB's own file does not say when a disk is
+/// full.
+class ArchiveInMemory : public openvdb::io::Archive {
+ public:
+  static std::string bytesOf(const openvdb::GridCPtrVec& grids) {
+    std::ostringstream out;
+    out.exceptions(std::ios::badbit | std::ios::failbit);
+    ArchiveInMemory().write(out, grids, /*seekable=*/true);
+    return std::move(out).str();
+  }
+};
+
 }  // namespace
 
 void openvdbReady() { openvdb::initialize(); }
@@ -75,17 +88,15 @@ void openvdbReady() { openvdb::initialize(); }
 void writeVdbGrids(const fs::path& path, const openvdb::GridCPtrVec& grids,
                    const Progress& progress) {
   progress.report("writing the volume", 0);
-  OutputFile out(path);
+  std::string bytes;
   try {
-    openvdb::io::File file(out.temporaryPath().string());
-    file.write(grids);
-    file.close();
+    bytes = ArchiveInMemory::bytesOf(grids);
   } catch (const std::exception& error) {
     fail(path, std::string("cannot be written: ") + error.what());
   }
   progress.report("writing the volume", 0.5);
-  std::string bytes = readFile(out.temporaryPath());
-  if (bytes.size() < kIdBegin + kIdLength) fail(path, "cannot be written: the disk may be full");
+  if (bytes.size() < kIdBegin + kIdLength)
+    fail(path, "cannot be written: there may be too little memory");
   bytes.replace(kIdBegin, kIdLength, kIdLength, '0');
   const std::uint64_t a = hash(bytes, 0xcbf29ce484222325u), b = hash(bytes, a);
   char id[kIdLength + 1];
@@ -95,9 +106,7 @@ void writeVdbGrids(const fs::path& path, const openvdb::GridCPtrVec& grids,
                 static_cast<unsigned long long>(b & 0xffffffffffff));
   bytes.replace(kIdBegin, kIdLength, id, kIdLength);
   progress.report("writing the volume", 0.8);
-  out.write(bytes);
-  progress.report("writing the volume", 1);
-  out.commit();
+  writeFile(path, bytes, progress.part(0.8, 1));
 }
 
 void withVdbGrids(const fs::path& path,

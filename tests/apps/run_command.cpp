@@ -5,11 +5,13 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -25,6 +27,14 @@ std::string contentOf(const fs::path& path) {
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
+}
+
+/// What a process has spent so far, on all cores.
+double cpuSecondsOf(pid_t process) {
+  clockid_t clock = 0;
+  timespec now{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &now) != 0) return 0;
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
@@ -65,18 +75,25 @@ CommandResult interruptExemplar(const std::vector<std::string>& arguments, const
   CommandResult result;
   char bytes[4096];
   bool sent = false;
+  double before = 0;
   for (ssize_t n; (n = read(err[0], bytes, sizeof bytes)) > 0;) {
     result.err.append(bytes, static_cast<std::size_t>(n));
     if (!sent && result.err.find('\n') != std::string::npos) {
       std::this_thread::sleep_for(after);
+      before = cpuSecondsOf(child);
       kill(child, signal);
       sent = true;
     }
   }
   close(err[0]);
   int code = 0;
-  waitpid(child, &code, 0);
+  rusage usage{};
+  wait4(child, &code, 0, &usage);
   result.status = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  result.cpuSeconds = seconds(usage.ru_utime) + seconds(usage.ru_stime) - before;
   return result;
 }
 

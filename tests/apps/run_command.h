@@ -14,6 +14,7 @@ namespace exemplar {
 struct CommandResult {
   int status = -1;  ///< exit status; -1 when a signal ended it
   std::string out, err;
+  double cpuSeconds = 0;  ///< of an interrupted run, from the signal to its end, on all cores
 };
 
 /// Runs `exemplar ARGUMENTS` through the shell in `folder`.
