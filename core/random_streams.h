@@ -25,6 +25,10 @@ enum Name : std::uint32_t {
   kLabelChoice = 0x4C424C31,  ///< which label a cell takes
   kBlockAccept = 0x4C424C32,  ///< whether a modified block is kept
   kLimits = 0x4C424C33,       ///< where a limit on counts or connectedness is worked on
+  // synth/layered
+  kLayers = 0x4C594552,         ///< the shapes of layers
+  kLayerClusters = 0x4C594343,  ///< where clusters of neighborhoods begin
+  kTextureStart = 0x4C595458,   ///< where a texture's pixels first come from
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,
