@@ -8,7 +8,7 @@
 
 #include "core/progress.h"
 #include "core/random.h"
-#include "synth/layered/boundary_patches.h"
+#include "maps/boundary_patches.h"
 
 namespace exemplar {
 

@@ -165,30 +165,9 @@ int levelsFor(const LayerMap& example, int width, int height, int wanted) {
 
 }  // namespace
 
-Shape layerShape(const LayerMap& map, int layer) {
-  Shape shape(map.width(), map.height());
-  for (std::size_t p = 0; p < map.count(); ++p) shape[p] = map[p] >= layer;
-  return shape;
-}
-
-double skippingShare(const LayerMap& map) {
-  std::int64_t steps = 0, skipping = 0;
-  const auto step = [&](int a, int b) {
-    steps += a != b;
-    skipping += std::abs(a - b) > 1;
-  };
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      if (x > 0) step(map(x, y), map(x - 1, y));
-      if (y > 0) step(map(x, y), map(x, y - 1));
-    }
-  }
-  return steps > 0 ? static_cast<double>(skipping) / static_cast<double>(steps) : 0;
-}
-
 SynthesizedLayers synthesizeLayers(const LayerMap& example, int width, int height,
                                    const LayerOptions& options, const Progress& progress) {
-  const int layers = *std::ranges::max_element(example.values());
+  const int layers = layerCount(example);
   const int levels = levelsFor(example, width, height, options.shape.levels);
   const Random random(options.seed, stream::kLayers);
   std::vector<ShapePyramid> wanted;
@@ -244,7 +223,7 @@ SynthesizedLayers synthesizeLayers(const LayerMap& example, int width, int heigh
 
 ControlMaps controlMaps(const LayerMap& example, bool exampleWraps, const LayerMap& result,
                         const Progress& progress) {
-  const int layers = *std::ranges::max_element(example.values());
+  const int layers = layerCount(example);
   ControlMaps maps{Grid<float>(example.width(), example.height()),
                    Grid<float>(result.width(), result.height())};
   for (int i = 1; i <= layers; ++i) {

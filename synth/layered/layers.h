@@ -9,23 +9,13 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "maps/layer_map.h"
 #include "maps/map.h"
 #include "synth/layered/shape_optimization.h"
 
-/// Layer maps: which layer shows at each pixel (Rosenberger, Cohen-Or, Lischinski 2009, sections 3,
+/// Layer maps, found and made (Rosenberger, Cohen-Or, Lischinski 2009, sections 3,
 /// 3.3 and 4).
 namespace exemplar {
-
-/// The number of the layer that shows, 1 (bottom) to the count of layers. Layer i is where the
-/// value is at least i, so that layers are nested.
-using LayerMap = Grid<std::uint8_t>;
-inline constexpr int kMostLayers = 8;
-
-/// Where the value is at least `layer`.
-Shape layerShape(const LayerMap& map, int layer);
-/// The share of steps between different layers, left or up, that skip one. Layered synthesis
-/// models maps in which they do not; above .15 it is the wrong model.
-double skippingShare(const LayerMap& map);
 
 struct DecompositionOptions {
   int layers = 4;         ///< 2..8

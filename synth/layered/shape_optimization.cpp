@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/parallel.h"
+
 namespace exemplar {
 namespace {
 
@@ -62,6 +64,52 @@ Shape majority(const Shape& shape, const PatchVotes& votes, float threshold, con
   return changed;
 }
 
+/// The majority of 3 x 3 pixels: a shorter boundary.
+Shape smoothed(const Shape& shape, const Shape* mask) {
+  Shape smooth(shape.width(), shape.height());
+  for (int y = 0; y < shape.height(); ++y) {
+    for (int x = 0; x < shape.width(); ++x) {
+      const std::size_t p = shape.index(x, y);
+      if (mask && !(*mask)[p]) continue;
+      int inside = 0;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) inside += shape[shape.wrapped(x + dx, y + dy)];
+      smooth[p] = inside >= 5;
+    }
+  }
+  return smooth;
+}
+
+double boundaryShare(const Shape& shape) {
+  return static_cast<double>(boundaryOf(shape, true).size()) / static_cast<double>(shape.count());
+}
+
+/// What votes make of a shape: with the threshold of certainty, smoothed or not, that gives the
+/// example's share of boundary most nearly.
+Shape adjusted(const Shape& shape, const PatchVotes& votes, float median,
+               const ShapeExample& example, const Shape* mask, const Random& random,
+               const Progress& progress) {
+  const auto target =
+      static_cast<std::int64_t>(std::llround(example.area * static_cast<double>(shape.count())));
+  std::array<Shape, 2 * kThresholds.size()> candidates;
+  std::array<double, candidates.size()> errors{};
+  parallelFor(0, candidates.size(), 1, [&](std::size_t first, std::size_t last) {
+    progress.check();
+    for (std::size_t c = first; c < last; ++c) {
+      Shape changed = majority(shape, votes, kThresholds[c / 2] * median, mask);
+      if (c % 2 == 1) changed = smoothed(changed, mask);
+      removeSmall(changed, example.smallestInside, example.smallestOutside, true);
+      if (mask)
+        for (std::size_t p = 0; p < changed.count(); ++p) changed[p] &= (*mask)[p];
+      setArea(changed, target, votes, mask, random);
+      errors[c] = std::abs(boundaryShare(changed) - example.boundary);
+      candidates[c] = std::move(changed);
+    }
+  });
+  return std::move(
+      candidates[static_cast<std::size_t>(std::ranges::min_element(errors) - errors.begin())]);
+}
+
 }  // namespace
 
 ShapeExample shapeExample(const Shape& shape, const ShapeOptions& options, const Random& random) {
@@ -70,6 +118,12 @@ ShapeExample shapeExample(const Shape& shape, const ShapeOptions& options, const
   example.area = areaOf(shape);
   std::vector<Pixel> all = boundaryOf(shape, options.exampleWraps);
   example.boundary = static_cast<double>(all.size()) / static_cast<double>(shape.count());
+  const auto smallest = [&](bool inside) {
+    const std::vector<std::uint32_t> sizes = componentSizes(shape, inside, options.exampleWraps);
+    return sizes.empty() ? 0 : *std::ranges::min_element(sizes);
+  };
+  example.smallestInside = smallest(true);
+  example.smallestOutside = smallest(false);
   if (!options.exampleWraps) {
     const int half = options.patch / 2;
     std::vector<Pixel> whole = all;
@@ -150,8 +204,6 @@ OptimizedShape optimizeShape(Shape start, const ShapeExample& example, const Sha
   result.shape = std::move(start);
   Shape& shape = result.shape;
   const int width = shape.width(), height = shape.height();
-  const auto target =
-      static_cast<std::int64_t>(std::llround(example.area * static_cast<double>(shape.count())));
   if (example.patches.count() == 0) return result;
   for (int n = 0; n < options.iterations; ++n) {
     const Progress part = progress.part(static_cast<double>(n) / options.iterations,
@@ -168,19 +220,7 @@ OptimizedShape optimizeShape(Shape start, const ShapeExample& example, const Sha
     const PatchVotes votes =
         votesOf(example.shape, example.patches, placed, width, height, options.exampleWraps);
     const float median = votes.medianWeight(placed.boundary);
-    Shape best;
-    double least = 0;
-    for (const float threshold : kThresholds) {
-      progress.check();
-      Shape changed = majority(shape, votes, threshold * median, mask);
-      setArea(changed, target, votes, mask, draws.fork(2));
-      const double boundary = static_cast<double>(boundaryOf(changed, true).size()) /
-                              static_cast<double>(changed.count());
-      const double error = std::abs(boundary - example.boundary);
-      if (!best.empty() && error >= least) continue;
-      least = error;
-      best = std::move(changed);
-    }
+    Shape best = adjusted(shape, votes, median, example, mask, draws.fork(2), part);
     std::size_t changes = 0;
     for (std::size_t p = 0; p < shape.count(); ++p) changes += best[p] != shape[p];
     shape = std::move(best);

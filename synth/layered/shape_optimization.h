@@ -8,8 +8,8 @@
 
 #include "core/progress.h"
 #include "core/random.h"
+#include "maps/boundary_patches.h"
 #include "synth/layered/assignment.h"
-#include "synth/layered/boundary_patches.h"
 
 /// One shape made like another (Rosenberger, Cohen-Or, Lischinski 2009, section 3.2).
 namespace exemplar {
@@ -30,6 +30,8 @@ struct ShapeExample {
   BoundaryPatches patches;  ///< around its boundary
   double area = 0;          ///< share of pixels inside
   double boundary = 0;      ///< share of pixels on the boundary
+  /// Pixels of the smallest component inside, and outside.
+  std::uint32_t smallestInside = 0, smallestOutside = 0;
 };
 /// At most so many boundary patches of an example are used, drawn at random from all.
 inline constexpr std::size_t kMostExamplePatches = 6000;

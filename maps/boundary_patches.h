@@ -24,6 +24,13 @@ std::vector<Pixel> boundaryOf(const Shape& shape, bool wraps);
 /// The share of pixels inside.
 double areaOf(const Shape& shape);
 
+/// The sizes of the components of pixels of one value (1 inside, 0 outside) that are connected by
+/// sides, in pixels, in the order of their first pixels.
+std::vector<std::uint32_t> componentSizes(const Shape& shape, bool inside, bool wraps);
+/// Turns components of fewer pixels over: `inside` is the least size of what is inside, `outside`
+/// of what is not.
+void removeSmall(Shape& shape, std::uint32_t inside, std::uint32_t outside, bool wraps);
+
 /// The `turn`th of the eight symmetries of the square, 0..7, applied to a step: quarter turns, then
 /// (from 4 on) the same of the mirror image.
 Pixel turnedStep(Pixel step, int turn);

@@ -1,13 +1,14 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include "synth/layered/boundary_patches.h"
+#include "maps/boundary_patches.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
 
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "core/simd.h"
 
@@ -54,7 +55,46 @@ int nearestTurn(const std::uint64_t* a, const std::uint64_t* turned, int words, 
   return least;
 }
 
+/// The component of each pixel: the index of its first pixel.
+DisjointSets componentsOf(const Shape& shape, bool wraps) {
+  DisjointSets sets(shape.count());
+  for (int y = 0; y < shape.height(); ++y) {
+    for (int x = 0; x < shape.width(); ++x) {
+      const std::size_t p = shape.index(x, y);
+      for (const Pixel& step : {Pixel{1, 0}, Pixel{0, 1}}) {
+        if (!wraps && !shape.contains(x + step.x, y + step.y)) continue;
+        const std::size_t q = shape.wrapped(x + step.x, y + step.y);
+        if (shape[p] == shape[q])
+          sets.join(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(q));
+      }
+    }
+  }
+  return sets;
+}
+
+std::vector<std::uint32_t> pixelsOfSets(DisjointSets& sets) {
+  std::vector<std::uint32_t> pixels(sets.count());
+  for (std::uint32_t p = 0; p < pixels.size(); ++p) ++pixels[sets.find(p)];
+  return pixels;
+}
+
 }  // namespace
+
+std::vector<std::uint32_t> componentSizes(const Shape& shape, bool inside, bool wraps) {
+  DisjointSets sets = componentsOf(shape, wraps);
+  std::vector<std::uint32_t> sizes;
+  const std::vector<std::uint32_t> pixels = pixelsOfSets(sets);
+  for (std::uint32_t p = 0; p < pixels.size(); ++p)
+    if (pixels[p] > 0 && (shape[p] != 0) == inside) sizes.push_back(pixels[p]);
+  return sizes;
+}
+
+void removeSmall(Shape& shape, std::uint32_t inside, std::uint32_t outside, bool wraps) {
+  DisjointSets sets = componentsOf(shape, wraps);
+  const std::vector<std::uint32_t> pixels = pixelsOfSets(sets);
+  for (std::uint32_t p = 0; p < pixels.size(); ++p)
+    if (pixels[sets.find(p)] < (shape[p] ? inside : outside)) shape[p] = !shape[p];
+}
 
 std::vector<Pixel> boundaryOf(const Shape& shape, bool wraps) {
   constexpr Pixel kSteps[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
