@@ -223,7 +223,7 @@ class Outliner {
       corner = point_[corner];
     }
     polygon.loops.push_back(std::move(loop));
-    // A region has one outer border: the loop that runs anticlockwise.
+    // A region has one outer border: the loop that runs counterclockwise.
     if (polygon.loops.size() > 1 && area(polygon, polygon.loops.back()) > 0)
       std::swap(polygon.loops.front(), polygon.loops.back());
   }

@@ -16,7 +16,7 @@
 /// Solids by the polygons between them.
 namespace exemplar::continuous {
 
-/// A flat face with one substance on each side; the corners of its first loop run anticlockwise
+/// A flat face with one substance on each side; the corners of its first loop run counterclockwise
 /// seen from the tip of the normal, those of holes clockwise.
 struct Polygon {
   ExactPlane plane;                ///< with a canonical normal
@@ -55,10 +55,15 @@ class Filling {
 PolygonModel outline(const Arrangement& arrangement, const Filling& filling,
                      const Progress& progress = {});
 
-/// Triangles of a model's faces that are seen, that is, next to air: closed, because faces share
-/// their corners and edges. `facesOf` receives the polygon of each triangle. With `hidden`, faces
-/// between two other substances, too, seen from above.
-TriangleMesh triangulate(const PolygonModel& model, bool hidden = false,
+/// Which faces become triangles.
+enum class Faces {
+  Seen,    ///< those next to air: the surface of all solids together
+  Shells,  ///< those of each substance, as a closed shell with vertices of its own
+};
+
+/// Triangles of a model's faces, outward: closed, because faces share their corners and edges. The
+/// materials are the substances' looks. `facesOf` receives the polygon of each triangle.
+TriangleMesh triangulate(const PolygonModel& model, Faces faces = Faces::Seen,
                          std::vector<std::uint32_t>* facesOf = nullptr,
                          const Progress& progress = {});
 

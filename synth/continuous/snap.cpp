@@ -359,9 +359,17 @@ class Snapping {
   }
 
   void makeSolids() {
+    // Where solids touch along an edge, each goes on with its own material.
+    const auto materialOf = [&](std::uint32_t n) {
+      return mesh_.hasMaterials() ? mesh_.triangleMaterials[triangles_[n]] : 0;
+    };
     DisjointSets parts(triangles_.size());
-    for (const auto& [ends, users] : edges_)
-      for (const std::uint32_t n : users) parts.join(users[0], n);
+    for (const auto& [ends, users] : edges_) {
+      for (const std::uint32_t a : users) {
+        for (const std::uint32_t b : users)
+          if (users.size() == 2 || materialOf(a) == materialOf(b)) parts.join(a, b);
+      }
+    }
     std::uint32_t count = 0;
     const std::vector<std::uint32_t> partOf = parts.numbered(&count);
     shells_ = static_cast<int>(count);

@@ -48,6 +48,7 @@ struct ContinuousOptions {
   int block = 20;           ///< side of a block, spacings
   int rounds = 2;           ///< of all blocks
   bool blocksOnly = false;  ///< no attempt in one pass
+  bool blocks = true;       ///< where no attempt succeeds
   std::vector<PlacedSubstance> placed;
   std::vector<Thickness> thin;
   std::size_t mostVertices = 20'000'000;

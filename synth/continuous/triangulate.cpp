@@ -20,21 +20,16 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 class EarClipper {
  public:
-  EarClipper(const PolygonModel& model, const Polygon& polygon, const Vec3l& normal)
-      : model_(model), polygon_(polygon), normal_(normal) {
-    const Vec3l size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+  EarClipper(const PolygonModel& model, const Polygon& polygon)
+      : model_(model), polygon_(polygon), normal_(polygon.plane.normal) {
+    const Vec3l size{std::abs(normal_.x), std::abs(normal_.y), std::abs(normal_.z)};
     drop_ = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   }
 
-  /// Appends triangles that are seen anticlockwise from the tip of the normal.
+  /// Appends triangles that are counterclockwise seen from the tip of the normal.
   void run(std::vector<Triangle>& triangles) {
-    const bool turned = dot(normal_, polygon_.plane.normal) < 0;
     std::vector<std::uint32_t> rings;
-    for (const std::vector<std::uint32_t>& loop : polygon_.loops) {
-      std::vector<std::uint32_t> corners = loop;
-      if (turned) std::ranges::reverse(corners);
-      rings.push_back(addRing(corners));
-    }
+    for (const std::vector<std::uint32_t>& loop : polygon_.loops) rings.push_back(addRing(loop));
     std::vector<std::uint32_t> holes;
     for (std::size_t n = 1; n < rings.size(); ++n) holes.push_back(leftmost(rings[n]));
     std::ranges::sort(holes, [&](std::uint32_t a, std::uint32_t b) {
@@ -257,40 +252,52 @@ class EarClipper {
 
 }  // namespace
 
-TriangleMesh triangulate(const PolygonModel& model, bool hidden,
+TriangleMesh triangulate(const PolygonModel& model, Faces faces,
                          std::vector<std::uint32_t>* facesOf, const Progress& progress) {
   std::vector<std::vector<Triangle>> made(model.polygons.size());
   LoopProgress loop(progress, "triangulating faces", model.polygons.size());
   parallelFor(0, model.polygons.size(), 16, [&](std::size_t from, std::size_t to) {
     for (std::size_t p = from; p < to; ++p) {
       const Polygon& polygon = model.polygons[p];
-      const int outside = polygon.outside();
-      if (outside == 0 && !hidden) continue;
-      const Vec3l normal = outside < 0 ? -polygon.plane.normal : polygon.plane.normal;
-      EarClipper(model, polygon, normal).run(made[p]);
+      if (polygon.outside() == 0 && faces == Faces::Seen) continue;
+      EarClipper(model, polygon).run(made[p]);
     }
     loop.advance(to - from);
   });
   TriangleMesh mesh;
   mesh.materials = model.looks;
   if (!mesh.materials.empty()) mesh.materials.erase(mesh.materials.begin());
-  std::vector<std::uint32_t> number(model.points.size(), 0xFFFFFFFF);
   if (facesOf) facesOf->clear();
-  for (std::size_t p = 0; p < made.size(); ++p) {
-    const Polygon& polygon = model.polygons[p];
-    const Substance seen = polygon.outside() < 0 ? polygon.above : polygon.below;
-    for (Triangle triangle : made[p]) {
-      for (std::uint32_t& corner : triangle) {
-        if (number[corner] == 0xFFFFFFFF) {
-          number[corner] = static_cast<std::uint32_t>(mesh.positions.size());
-          mesh.positions.push_back(model.toWorld(model.points[corner]));
+  constexpr std::uint32_t kNew = 0xFFFFFFFF;
+  std::vector<std::uint32_t> number(model.points.size(), kNew);
+  // The triangles of one side of the faces that `wanted` says: up, down, or neither (0).
+  const auto take = [&](auto&& wanted) {
+    for (std::size_t p = 0; p < made.size(); ++p) {
+      const int side = wanted(model.polygons[p]);
+      if (side == 0) continue;
+      const Substance owner = side > 0 ? model.polygons[p].below : model.polygons[p].above;
+      for (Triangle triangle : made[p]) {
+        if (side < 0) std::swap(triangle[1], triangle[2]);
+        for (std::uint32_t& corner : triangle) {
+          if (number[corner] == kNew) {
+            number[corner] = static_cast<std::uint32_t>(mesh.positions.size());
+            mesh.positions.push_back(model.toWorld(model.points[corner]));
+          }
+          corner = number[corner];
         }
-        corner = number[corner];
+        mesh.triangles.push_back(triangle);
+        if (!mesh.materials.empty()) mesh.triangleMaterials.push_back(owner - 1u);
+        if (facesOf) facesOf->push_back(static_cast<std::uint32_t>(p));
       }
-      mesh.triangles.push_back(triangle);
-      if (!mesh.materials.empty()) mesh.triangleMaterials.push_back(seen - 1u);
-      if (facesOf) facesOf->push_back(static_cast<std::uint32_t>(p));
     }
+  };
+  if (faces == Faces::Seen) {
+    take([](const Polygon& polygon) { return polygon.outside(); });
+    return mesh;
+  }
+  for (std::size_t s = 1; s < model.substances.size(); ++s) {
+    std::ranges::fill(number, kNew);
+    take([&](const Polygon& polygon) { return polygon.below == s ? 1 : polygon.above == s ? -1 : 0; });
   }
   return mesh;
 }
