@@ -7,7 +7,9 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "core/error.h"
 #include "engine/output.h"
+#include "engine/source.h"
 #include "engine/words.h"
 #include "mesh/mesh_file.h"
 #include "mesh/scene.h"
@@ -60,6 +62,15 @@ Command addSceneCommand(CLI::App& app) {
             requireOutput(options->output, kMeshEndings);
             SceneRequest request;
             sceneSettings().apply(options->settings, request);
+            if (const Source source(findScene(options->name));
+                sourceKind(source) == SourceKind::Solids) {
+              if (request.scene.seed || request.scene.extent != Vec3d{1, 1, 1})
+                throw InputError("`scene-seed`, `extent`: a scene of solids is what it is");
+              writeMesh(options->output, readTriangles(source, {}), request.file);
+              terminal.wrote("scene", options->output,
+                             source.name() + " written to " + options->output);
+              return;
+            }
             const Scene scene = readScene(findScene(options->name), request.scene);
             writeMesh(options->output, scene.mesh, request.file);
             terminal.wrote("scene", options->output,

@@ -186,7 +186,7 @@ void writeReport(const Options& options, const Plan& plan, std::span<const Examp
   run["peak_memory_bytes"] = peakResidentBytes();
   if (example.form() == Form::Labels) run["labels"] = example.labels().labelCount();
   const TriangleMesh whole =
-      example.form() == Form::Labels
+      example.form() != Form::Field
           ? pictured(example, progress.part(0.4, 0.5))
           : pictured(example.source, example.reading, progress.part(0.4, 0.5));
   const std::optional<SampledResult> samples = sampled(result, example);
@@ -292,8 +292,10 @@ void addSettings(CLI::App& command, Settings& into) {
     const std::string name(engine->name());
     options.add("Engine " + name + ": " + std::string(engine->meaning()), name, engine->settings());
   }
+  options.add("Reading a mesh as polygons", "polygons", readingSettings(Form::Polygons).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Field).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Labels).settings());
+  options.add("The result's surface", "", surfaceSettings(Form::Polygons).settings());
   options.install(command, into);
 }
 
@@ -311,13 +313,15 @@ Command addSynthCommand(CLI::App& app) {
   command
       ->add_option("-o,--output", options->output,
                    std::string("what to write; its ending chooses the format: of distances ") +
-                       outputEndings(Form::Field) + ", of labels " + outputEndings(Form::Labels))
+                       outputEndings(Form::Field) + ", of labels " + outputEndings(Form::Labels) +
+                       ", of polygons " + outputEndings(Form::Polygons))
       ->required();
   std::string names;
   for (const Engine* engine : engines()) names += "|" + std::string(engine->name());
   command
       ->add_option("--engine", options->engine,
-                   "what makes it (auto: model for labels and scenes of pieces, else geometry)")
+                   "what makes it (auto: model for labels and scenes of pieces, continuous "
+                   "for scenes of solids, else geometry)")
       ->option_text("auto" + names);
   command
       ->add_option("--with", options->with,

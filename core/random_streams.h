@@ -29,6 +29,8 @@ enum Name : std::uint32_t {
   kLayers = 0x4C594552,         ///< the shapes of layers
   kLayerClusters = 0x4C594343,  ///< where clusters of neighborhoods begin
   kTextureStart = 0x4C595458,   ///< where a texture's pixels first come from
+  // synth/continuous
+  kFigureChoice = 0x46494731,  ///< which figure a vertex takes
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,

@@ -57,6 +57,11 @@ Example exampleFor(const ComparedEngine& compared, const Example& example,
                    const Progress& progress) {
   if (compared.engine->form() == Form::Field) return example;
   ReadOptions reading = example.reading;
+  if (compared.engine->form() == Form::Polygons) {
+    reading.form = Form::Polygons;
+    readingSettings(Form::Polygons).apply(compared.settings, reading);
+    return readExample(example.source, reading, progress);
+  }
   reading.form = Form::Labels;
   readingSettings(Form::Labels).apply(compared.settings, reading);
   // A scene of pieces is taken by its pieces unless blocks of its field are asked for.
@@ -109,6 +114,13 @@ void samplePieces(const Result& result, const Example& example, const Example& p
   run.content = measureContent(grid, made, progress);
 }
 
+/// The field of a result of polygons: its surface, sampled.
+void samplePolygons(const Result& result, const Example& example, const Example& given,
+                    const Progress& progress, Run& run) {
+  run.mesh = realize(result, {&given, 1}, {}, progress.part(0, 0.3)).mesh;
+  run.field = sampleMeshResult(run.mesh, example.field(), {}, progress.part(0.3, 1));
+}
+
 /// Counts the pairs of blocks that the example does not show: for every engine in the same way, by
 /// the result's samples alone.
 void countViolations(const DistanceField& example, const Progress& progress, Run& run) {
@@ -145,7 +157,9 @@ Run runEngine(const ComparedEngine& compared, const Example& example, const Vec3
       run.why = result.conflict ? result.conflict->text : result.why;
       return run;
     }
-    if (pieces) {
+    if (result.form() == Form::Polygons) {
+      samplePolygons(result, example, given, progress.part(0.6, 0.9), run);
+    } else if (pieces) {
       samplePieces(result, example, given, progress.part(0.6, 0.9), run);
     } else {
       SampledResult made = *sampled(result, given);

@@ -81,7 +81,7 @@ Result Engine::run(std::span<const Example> examples, const Request& request,
 
 std::span<const Engine* const> engines() {
   static const Engine* const all[] = {&geometryEngine(), &quiltingEngine(), &votingEngine(),
-                                      &blocksEngine(), &modelEngine()};
+                                      &blocksEngine(), &modelEngine(),     &continuousEngine()};
   return all;
 }
 
@@ -100,6 +100,8 @@ const Engine& engineFor(const Source& source) {
     case SourceKind::Pieces:
     case SourceKind::Picture:
       return modelEngine();
+    case SourceKind::Solids:
+      return continuousEngine();
     default:
       return geometryEngine();
   }

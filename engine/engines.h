@@ -19,5 +19,6 @@ const Engine& votingEngine();
 const Engine& blocksEngine();
 /// Model synthesis (Merrell 2007, 2009; `synth/model`).
 const Engine& modelEngine();
+const Engine& continuousEngine();
 
 }  // namespace exemplar

@@ -28,8 +28,9 @@ SettingTable<ReadOptions>::Row meshUpRow() {
 void warnOfUnused(Example& example) {
   const ReadOptions& o = example.reading;
   const SourceKind kind = example.kind;
-  const bool labels = o.form == Form::Labels;
-  const bool mesh = kind == SourceKind::Mesh, heights = kind == SourceKind::HeightMap;
+  const bool labels = o.form == Form::Labels, polygons = o.form == Form::Polygons;
+  const bool mesh = kind == SourceKind::Mesh || kind == SourceKind::Solids;
+  const bool heights = kind == SourceKind::HeightMap;
   const bool scene = kind == SourceKind::Scene || kind == SourceKind::Pieces;
   const bool picture = kind == SourceKind::Picture;
   const bool sampled = kind != SourceKind::Volume && kind != SourceKind::Labels && !picture;
@@ -48,6 +49,9 @@ void warnOfUnused(Example& example) {
   use("air", o.air.has_value(), labels && (mesh || scene));
   use("piece", o.image.piece != usual.image.piece, picture);
   use("overlap", o.image.overlap, picture);
+  use("unit", o.unit.has_value(), polygons && kind == SourceKind::Mesh);
+  use("snap", o.snap != usual.snap, polygons && kind == SourceKind::Mesh);
+  use("ground", o.ground.has_value(), polygons && kind == SourceKind::Mesh);
   const bool blocks = std::holds_alternative<LabeledField>(example.content);
   use("field-block", o.blocks.block != usual.blocks.block, blocks);
   use("field-tolerance", o.blocks.tolerance != usual.blocks.tolerance, blocks);
@@ -91,6 +95,18 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
     return settingRow<O>("grid", &O::grid, "which grid of a .vdb file is read, by its name", {}, "",
                          "a level set, else \"density\", else the first");
   };
+  static const SettingTable<O> polygons{
+      settingRow<O>("unit", &O::unit,
+                    "side of the grid to which a mesh's vertices are snapped, so that its planes "
+                    "are exact",
+                    kAboveZero, "world units", "found from the distances between parallel faces"),
+      settingRow<O>("snap", &O::snap, "how far a vertex of a mesh may move when it is snapped",
+                    {0, 0.1}, "lengths of the longest side"),
+      settingRow<O>("ground", &O::ground,
+                    "height below which a mesh has ground that goes on for ever", {}, "world units",
+                    "none"),
+      meshUpRow(),
+      normalsRow()};
   static const SettingTable<O> field{
       settingRow<O>("resolution", &O::resolution,
                     "samples along the example's longest side; finer detail is lost", {4, 4096},
@@ -141,7 +157,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       grid(),
       meshUpRow(),
       normalsRow()};
-  return form == Form::Field ? field : labels;
+  return form == Form::Field ? field : form == Form::Labels ? labels : polygons;
 }
 
 Example readExample(const Source& source, const ReadOptions& options, const Progress& progress) {
@@ -153,10 +169,13 @@ Example readExample(const Source& source, const ReadOptions& options, const Prog
   if (!options.form) {
     const bool labels = example.kind == SourceKind::Labels || example.kind == SourceKind::Pieces ||
                         example.kind == SourceKind::Picture;
-    example.reading.form = labels ? Form::Labels : Form::Field;
+    const bool solids = example.kind == SourceKind::Solids;
+    example.reading.form = labels ? Form::Labels : solids ? Form::Polygons : Form::Field;
   }
   if (example.reading.form == Form::Field) {
     readAsField(example, progress);
+  } else if (example.reading.form == Form::Polygons) {
+    readAsPolygons(example, progress);
   } else {
     readAsLabels(example, progress);
   }

@@ -19,6 +19,8 @@
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
 #include "sdf/height_map.h"
+#include "synth/continuous/polygons.h"
+#include "synth/continuous/solid_scene.h"
 #include "voxelize/field_blocks.h"
 #include "voxelize/label_grid.h"
 #include "voxelize/label_image.h"
@@ -30,12 +32,13 @@ namespace exemplar {
 
 /// What an engine works on.
 enum class Form {
-  Field,   ///< signed distances (geometry synthesis)
-  Labels,  ///< a grid of labels (model synthesis)
+  Field,     ///< signed distances (geometry synthesis)
+  Labels,    ///< a grid of labels (model synthesis)
+  Polygons,  ///< solids between planes (continuous model synthesis)
 };
 
 /// An example, or a result, as an engine sees it. In the order of `Form`.
-using Representation = std::variant<DistanceField, LabelGrid>;
+using Representation = std::variant<DistanceField, LabelGrid, continuous::PolygonModel>;
 
 /// How distances become labels: blocks of the field.
 struct LabeledField {
@@ -58,7 +61,8 @@ inline constexpr double kExampleHalfWidth = 16;
 
 /// How an example is read and sampled. What is left out follows from the kind of example.
 struct ReadOptions {
-  std::optional<Form> form;  ///< Labels for grids of labels and scenes of pieces, else Field
+  /// Labels for grids of labels and scenes of pieces, Polygons for scenes of solids, else Field.
+  std::optional<Form> form;
   /// Samples (Field) or cells (Labels) along the longest side, 4..4096 and 1..4096.
   std::optional<int> resolution;
   std::optional<int> padding;              ///< Field: voxels of air around a mesh, 0..1024
@@ -76,6 +80,11 @@ struct ReadOptions {
   double tolerance = 1e-4;           ///< of equal model pieces, cells
   ImageLabelsOptions image;          ///< how a picture is cut
   FieldBlocksOptions blocks;         ///< how a distance field is cut
+
+  // Polygons only:
+  std::optional<double> unit;    ///< of a mesh's grid, world units, > 0; found
+  double snap = 1e-3;            ///< how far a mesh's vertices may move, lengths of its longest side
+  std::optional<double> ground;  ///< world height below which all is ground; none
 };
 
 /// The settings that fill `ReadOptions`, for examples of a form.
@@ -87,9 +96,10 @@ struct Example {
   ReadOptions reading;  ///< as it was read
   SourceKind kind = SourceKind::Mesh;
   std::string description;  ///< for people: "mesh of 23,952 triangles at 64 x 64 x 24 samples"
-  /// Distances, truncated at `kExampleHalfWidth` voxels, or labels.
+  /// Distances, truncated at `kExampleHalfWidth` voxels, labels, or faces.
   Representation data;
   LabelContent content;              ///< of labels
+  std::optional<continuous::SolidScene> solids;  ///< of polygons: exactly
   std::optional<TriangleMesh> mesh;  ///< where materials, colors and finer detail come from
   Hints hints;
   Axes continues;  ///< along which it goes on past its box: a volume that tiles
@@ -100,6 +110,9 @@ struct Example {
   /// Throw `std::bad_variant_access` where it is of the other form.
   const DistanceField& field() const { return std::get<DistanceField>(data); }
   const LabelGrid& labels() const { return std::get<LabelGrid>(data); }
+  const continuous::PolygonModel& polygons() const {
+    return std::get<continuous::PolygonModel>(data);
+  }
   std::string name() const { return source.name(); }
 };
 
@@ -109,6 +122,7 @@ struct Example {
 /// are windows into something larger, and get none. As labels: a mesh or scene is cut into model
 /// pieces along `cell` or the scene's own grid; a picture into its pieces; what has no grid (a mesh
 /// without `cell`, a height map, a volume) is sampled as a field, whose blocks are labels.
+/// As polygons: a scene of solids, or a closed mesh, which is snapped to a grid.
 /// Throws `InputError` and `Cancelled`.
 Example readExample(const Source& source, const ReadOptions& options = {},
                     const Progress& progress = {});

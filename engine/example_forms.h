@@ -15,6 +15,7 @@ namespace exemplar {
 /// Fills the example whose source, kind and reading options are set, as distances or as labels.
 void readAsField(Example& example, const Progress& progress);
 void readAsLabels(Example& example, const Progress& progress);
+void readAsPolygons(Example& example, const Progress& progress);
 
 /// The scene of a file or its bytes.
 Scene readSceneOf(const Source& source, const ReadOptions& options, const Progress& progress);

@@ -107,6 +107,7 @@ void takeVolume(Example& example, const Progress& progress) {
 void readAsField(Example& example, const Progress& progress) {
   switch (example.kind) {
     case SourceKind::Mesh:
+    case SourceKind::Solids:
       sampleMesh(example, progress);
       break;
     case SourceKind::HeightMap:

@@ -30,7 +30,7 @@ struct GriddedMesh {
 
 GriddedMesh readGriddedMesh(Example& example, const Progress& progress) {
   GriddedMesh gridded;
-  if (example.kind == SourceKind::Mesh) {
+  if (example.kind == SourceKind::Mesh || example.kind == SourceKind::Solids) {
     MeshFileOptions file = example.reading.mesh;
     file.warnings = &example.warnings;
     gridded.mesh = readTriangles(example.source, file, progress);
@@ -129,6 +129,7 @@ void readAsLabels(Example& example, const Progress& progress) {
   if (example.kind == SourceKind::HeightMap && ending == ".png") example.kind = SourceKind::Picture;
   switch (example.kind) {
     case SourceKind::Mesh:
+    case SourceKind::Solids:
     case SourceKind::Scene:
     case SourceKind::Pieces:
       fromMesh(example, progress);

@@ -103,8 +103,9 @@ Written writeTriangles(const fs::path& path, const TriangleMesh& mesh, const Mes
 }  // namespace
 
 const char* outputEndings(Form form) {
-  return form == Form::Field ? ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc"
-                             : ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf .gif";
+  return form == Form::Field    ? ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc"
+         : form == Form::Labels ? ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf .gif"
+                                : kMeshEndings;
 }
 
 void requireOutput(const fs::path& path, const std::string& endings) {
@@ -116,7 +117,7 @@ void requireOutput(const fs::path& path, const std::string& endings) {
 
 void requireOutputFits(const fs::path& path, Form form, const Vec3i& size, int frames,
                        bool instances) {
-  if (form == Form::Field) return;
+  if (form != Form::Labels) return;
   if (instances && !endsWith(path, ".glb"))
     throw InputError("`instances`: only a .glb has instances, not " + path.string());
   if (endsWith(path, ".gif") && frames == 0) {
@@ -141,7 +142,7 @@ Written writeResult(const fs::path& path, const Result& result, std::span<const 
   progress.report("writing " + path.string(), 0);
   if (surface && needsSurface(path, result, options)) {
     return writeTriangles(path, surface->mesh, surface->health,
-                          result.form() == Form::Field ? "mesh" : "written", options.mesh,
+                          result.form() == Form::Labels ? "written" : "mesh", options.mesh,
                           progress);
   }
   if (result.form() == Form::Field) return writeField(path, result, example, progress);

@@ -79,7 +79,11 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
           {1, 16})};
   static const SettingTable<O> labels{settingRow<O>(
       "instances", &O::instances, "a .glb of model pieces: write each piece once and place it")};
-  return form == Form::Field ? field : labels;
+  static const SettingTable<O> polygons{
+      settingRow<O>("shells", &O::shells,
+                    "a closed shell of each material, with the faces between two of them, in place "
+                    "of the surface that is seen")};
+  return form == Form::Field ? field : form == Form::Labels ? labels : polygons;
 }
 
 void requireSurface(const SurfaceOptions& options, std::span<const Example> examples) {
@@ -102,6 +106,14 @@ Surface realize(const Result& result, std::span<const Example> examples,
                                                 : contoured(result, examples, options, progress);
   }
   Surface surface;
+  if (result.form() == Form::Polygons) {
+    surface.mesh = continuous::triangulate(
+        result.polygons(), options.shells ? continuous::Faces::Shells : continuous::Faces::Seen,
+        nullptr, progress.part(0, 0.8));
+    if (surface.mesh.triangles.empty()) throw InputError("the result is empty");
+    surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
+    return surface;
+  }
   surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));
   surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
   return surface;
@@ -127,6 +139,7 @@ TriangleMesh contourOf(const Example& example, const Progress& progress) {
 }
 
 TriangleMesh pictured(const Example& example, const Progress& progress) {
+  if (example.form() == Form::Polygons) return *example.mesh;
   if (example.form() == Form::Labels) {
     if (const auto* labeled = std::get_if<LabeledField>(&example.content)) {
       Example field = example;
@@ -148,7 +161,8 @@ TriangleMesh pictured(const Example& example, const Progress& progress) {
 
 TriangleMesh pictured(const Source& source, const ReadOptions& options, const Progress& progress) {
   const SourceKind kind = sourceKind(source);
-  if (kind == SourceKind::Mesh) return readTriangles(source, options.mesh, progress);
+  if (kind == SourceKind::Mesh || kind == SourceKind::Solids)
+    return readTriangles(source, options.mesh, progress);
   if (kind == SourceKind::Labels)
     return boxesOf(readLabelGrid(source), false, source.name(), progress);
   // A scene of model pieces is shown as it is, not as what a distance field leaves of it.

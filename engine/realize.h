@@ -27,6 +27,7 @@ struct SurfaceOptions {
   std::int64_t triangles = 0;  ///< Field: merge triangles down to this many; 0 for not at all
   int detail = 1;          ///< Field: re-make the result at this many times the resolution, 1..16
   bool instances = false;  ///< Labels: write each model piece once and place it (.glb)
+  bool shells = false;     ///< Polygons: a closed shell of each material, in place of what is seen
 };
 /// The settings that fill `SurfaceOptions`, for results of a form.
 const SettingTable<SurfaceOptions>& surfaceSettings(Form form);

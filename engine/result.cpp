@@ -13,14 +13,23 @@
 namespace exemplar {
 
 std::string readableExtent(const Result& result) {
-  return result.form() == Form::Field ? readableSize(result.field().size(), "samples")
-                                      : readableSize(result.labels().size(), "cells");
+  switch (result.form()) {
+    case Form::Field:
+      return readableSize(result.field().size(), "samples");
+    case Form::Labels:
+      return readableSize(result.labels().size(), "cells");
+    default: {
+      const continuous::PolygonModel& model = result.polygons();
+      return readableSize(model.size, "spacings") + ", " +
+             withThousands(static_cast<long long>(model.polygons.size())) + " faces";
+    }
+  }
 }
 
 std::optional<SampledResult> sampled(const Result& result, const Example& example) {
   if (result.form() == Form::Field) return SampledResult{result.field(), result.origins};
   const auto* labeled = std::get_if<LabeledField>(&example.content);
-  if (!labeled) return std::nullopt;
+  if (!labeled || result.form() != Form::Labels) return std::nullopt;
   PlacedBlocks placed = placeBlocks(labeled->field, labeled->blocks, result.labels().cells);
   return SampledResult{std::move(placed.field), std::move(placed.origins)};
 }

@@ -55,6 +55,9 @@ struct Result {
   Form form() const { return static_cast<Form>(data.index()); }
   const DistanceField& field() const { return std::get<DistanceField>(data); }
   const LabelGrid& labels() const { return std::get<LabelGrid>(data); }
+  const continuous::PolygonModel& polygons() const {
+    return std::get<continuous::PolygonModel>(data);
+  }
 };
 
 /// "128 x 128 x 24 samples" or "80 x 80 x 10 cells".

@@ -73,6 +73,11 @@ Json toJson(const Setting& setting) {
   return json;
 }
 
+/// "distances", "labels", "polygons".
+std::string_view formName(Form form) {
+  return form == Form::Field ? "distances" : form == Form::Labels ? "labels" : "polygons";
+}
+
 }  // namespace
 
 std::string settingsPage() {
@@ -90,16 +95,19 @@ std::string settingsPage() {
     for (const std::string_view key : engine->honors())
       honored.push_back("`" + std::string(key) + "`");
     text += "\n### " + std::string(engine->name()) + "\n\n" + std::string(engine->meaning()) +
-            ". Works on " + (engine->form() == Form::Field ? "distances" : "labels") + "; honors " +
+            ". Works on " + std::string(formName(engine->form())) + "; honors " +
             joined(honored, "and") + (engine->mixes() ? "; takes several examples" : "") + ".\n\n" +
             table(engine->settings());
   }
   text +=
       "\n## Reading an example as distances\n\n" + table(readingSettings(Form::Field).settings());
   text += "\n## Reading an example as labels\n\n" + table(readingSettings(Form::Labels).settings());
+  text += "\n## Reading an example as polygons\n\n" +
+          table(readingSettings(Form::Polygons).settings());
   text += "\n## The surface of a result\n\nOf distances:\n\n" +
           table(surfaceSettings(Form::Field).settings()) + "\nOf labels:\n\n" +
-          table(surfaceSettings(Form::Labels).settings());
+          table(surfaceSettings(Form::Labels).settings()) + "\nOf polygons:\n\n" +
+          table(surfaceSettings(Form::Polygons).settings());
   return text;
 }
 
@@ -110,7 +118,7 @@ Json settingsJson() {
     for (const Setting& setting : settingsOf(*engine)) settings.push_back(toJson(setting));
     all.push_back({{"name", engine->name()},
                    {"meaning", engine->meaning()},
-                   {"form", engine->form() == Form::Field ? "distances" : "labels"},
+                   {"form", formName(engine->form())},
                    {"mixes", engine->mixes()},
                    {"settings", std::move(settings)}});
   }

@@ -8,6 +8,7 @@
 #include "mesh/mesh_file.h"
 #include "mesh/scene.h"
 #include "sdf/vdb_file.h"
+#include "synth/continuous/synthesize.h"
 #include "voxelize/label_file.h"
 
 namespace exemplar {
@@ -23,6 +24,21 @@ const T& held(const Source& source, const char* what) {
 bool isFile(const Source& source) {
   return !source.inMemory<TriangleMesh>() && !source.inMemory<DistanceField>() &&
          !source.inMemory<LabelGrid>() && !source.inMemory<HeightMap>();
+}
+
+/// The text of a scene, which may be a bundled one.
+std::string sceneText(const Source& source) {
+  if (const std::string* bytes = source.inMemory<std::string>()) return *bytes;
+  return readFile(findScene(source.name()));
+}
+
+/// Whether a .toml is a scene of solids; where it cannot be read, reading it as another one says so.
+bool isSolids(const Source& source) {
+  try {
+    return continuous::isSolidScene(sceneText(source));
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 /// Whether a .vdb holds labels; where it is neither, reading it as distances says what is wrong.
@@ -50,6 +66,7 @@ SourceKind sourceKind(const Source& source) {
   if (ending == ".jpg" || ending == ".jpeg") return SourceKind::Picture;
   if (source.inMemory<std::string>() && ending == ".vdb")
     throw InputError(source.name() + ": a .vdb is read from a file, not from bytes");
+  if (ending == ".toml" && isSolids(source)) return SourceKind::Solids;
   if (source.inMemory<std::string>() && ending == ".toml") {
     const Scene scene = readScene(*source.inMemory<std::string>(), source.name(), {});
     return scene.cell ? SourceKind::Pieces : SourceKind::Scene;
@@ -62,9 +79,17 @@ SourceKind sourceKind(const Source& source) {
 TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
                            const Progress& progress) {
   if (!isFile(source)) return held<TriangleMesh>(source, "triangles");
+  if (sourceKind(source) == SourceKind::Solids) {
+    const continuous::SolidScene scene = readSolids(source);
+    return continuous::triangulate(continuous::polygonsOf(scene.solids, scene.looks, progress));
+  }
   if (const std::string* bytes = source.inMemory<std::string>())
     return readMesh(*bytes, source.name(), options, progress);
   return readMesh(source.path(), options, progress);
+}
+
+continuous::SolidScene readSolids(const Source& source) {
+  return continuous::readSolidScene(sceneText(source), source.name());
 }
 
 DistanceField readDistances(const Source& source, const ReadVdbOptions& options, Axes* wraps,

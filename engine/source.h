@@ -15,6 +15,7 @@
 #include "sdf/distance_field.h"
 #include "sdf/height_map.h"
 #include "sdf/vdb_file.h"
+#include "synth/continuous/solid_scene.h"
 #include "voxelize/label_grid.h"
 
 namespace exemplar {
@@ -70,6 +71,7 @@ enum class SourceKind {
   Mesh,       ///< .obj .ply .stl .off .glb .gltf
   Scene,      ///< .toml: a process that makes a mesh
   Pieces,     ///< .toml: a scene made of model pieces on a grid
+  Solids,     ///< .toml: a scene of solids between planes
   Volume,     ///< .vdb of signed distances
   HeightMap,  ///< .png .pgm .asc
   Labels,     ///< .txt .vox, .vdb of labels
@@ -87,6 +89,7 @@ inline constexpr const char* kExampleEndings =
 /// Read what a source holds. Throw `InputError` naming it, and `Cancelled`.
 TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
                            const Progress& progress = {});
+continuous::SolidScene readSolids(const Source& source);
 DistanceField readDistances(const Source& source, const ReadVdbOptions& options = {},
                             Axes* wraps = nullptr, const Progress& progress = {});
 LabelGrid readLabelGrid(const Source& source, const Progress& progress = {});

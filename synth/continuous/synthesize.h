@@ -1,0 +1,85 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/outcome.h"
+#include "core/progress.h"
+#include "synth/continuous/polygons.h"
+#include "synth/continuous/search.h"
+#include "synth/continuous/solids.h"
+
+/// Continuous model synthesis: P. Merrell and D. Manocha, "Continuous Model Synthesis", ACM
+/// Transactions on Graphics 27(5) (SIGGRAPH Asia), 2008, doi:10.1145/1409060.1409111; P. Merrell,
+/// "Model Synthesis", PhD thesis, University of North Carolina at Chapel Hill, 2009, chapter 4.
+///
+/// Near every point the result looks like the example near some point. Differences: everything is
+/// exact; planes are spaced so that vertices of any number of planes repeat; failed choices are
+/// undone one by one; labels are weighed.
+namespace exemplar::continuous {
+
+/// A point that must be of some substances. It is in a cell of the box of the result that is one
+/// spacing wide, at its center.
+struct PlacedSubstance {
+  Vec3i cell;
+  std::vector<Substance> substances;
+};
+
+/// A substance that is at most one spacing of planes thick across a direction.
+struct Thickness {
+  Substance substance = 1;
+  Vec3l normal;  ///< canonical
+};
+
+struct ContinuousOptions {
+  Vec3i size{1, 1, 1};        ///< of the result, in spacings
+  std::uint64_t seed = 0;
+  std::optional<std::int64_t> spacing;  ///< of planes, units; found
+  /// How full the result is, in shares of the example: weights of all that is not empty are
+  /// multiplied by it. > 0.
+  double density = 1;
+  std::int64_t budget = 0;  ///< failed choices of an attempt; 0: 1,000 and a tenth of the vertices
+  int attempts = 3;         ///< in one pass, before blocks
+  int block = 20;           ///< side of a block, spacings
+  int rounds = 2;           ///< of all blocks
+  bool blocksOnly = false;  ///< no attempt in one pass
+  bool blocks = true;       ///< where no attempt succeeds
+  std::vector<PlacedSubstance> placed;
+  std::vector<Thickness> thin;
+  std::size_t mostVertices = 20'000'000;
+};
+
+struct ContinuousStatistics {
+  std::size_t directions = 0, figures = 0, labels = 0, classes = 0;
+  std::size_t vertices = 0, freeVertices = 0;
+  std::int64_t choices = 0, failures = 0, attempts = 0, blocks = 0, blocksKept = 0, exact = 0;
+  std::size_t polygons = 0;
+  bool whole = false;  ///< in one pass, not in blocks
+  /// For each rank (within a substance, face, edge, corner) its share of the inner vertices, in the
+  /// example and in the result.
+  std::array<double, 4> exampleShares{}, shares{};
+};
+
+struct ContinuousResult {
+  Outcome outcome = Outcome::Complete;
+  PolygonModel model;  ///< where complete
+  std::string why;     ///< where not: one sentence
+  std::vector<int> conflict;  ///< where impossible: indices of `placed` that exclude each other
+  ContinuousStatistics statistics;
+};
+
+/// The example's own faces, in a box one spacing larger than it.
+PolygonModel polygonsOf(const Solids& solids, const std::vector<Material>& looks,
+                        const Progress& progress = {});
+
+/// Makes more of an example. The same at any number of threads. Throws `InputError` for requests
+/// that cannot be honored, and `Cancelled`.
+ContinuousResult synthesizeSolids(const Solids& example, const std::vector<Material>& looks,
+                                  const ContinuousOptions& options, const Progress& progress = {});
+
+}  // namespace exemplar::continuous
