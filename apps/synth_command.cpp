@@ -29,7 +29,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> examples, with;
-  std::string output, engine, preview, stats, origins, report;
+  std::string output, engine, preview, stats, origins, report, layers;
   Settings settings;
   PictureOptions picture;
 };
@@ -72,8 +72,8 @@ void requireDistinct(const Options& options) {
   const auto same = [&](const std::string& a, const std::string& b) {
     return whole(a) == whole(b);
   };
-  for (const std::string* output :
-       {&options.output, &options.preview, &options.stats, &options.origins, &options.report}) {
+  for (const std::string* output : {&options.output, &options.preview, &options.stats,
+                                    &options.origins, &options.report, &options.layers}) {
     if (output->empty()) continue;
     for (const std::string& path : paths) {
       if (same(path, *output))
@@ -102,6 +102,13 @@ Plan planOf(const Options& options) {
   if (!options.stats.empty()) requireOutput(options.stats, ".json");
   if (!options.origins.empty()) requireOutput(options.origins, ".vdb");
   if (!options.report.empty()) requireOutput(options.report, ".html");
+  if (!options.layers.empty()) {
+    requireOutput(options.layers, ".png");
+    if (form != Form::Map)
+      throw InputError("--write-layers: only the engine layered has layers; leave it out");
+  }
+  if (!options.report.empty() && form == Form::Map)
+    throw InputError("--report: a page shows surfaces, and a map has none; leave it out");
   if (!options.origins.empty() && form != Form::Field)
     throw InputError("--origins: only results of distance fields have them; leave it out");
   if (!options.report.empty() && settings.has("frames"))
@@ -167,6 +174,7 @@ Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& te
 /// The surface, where anything that is to be written takes it.
 std::optional<Surface> surfaceFor(const Options& options, const Plan& plan, const Result& result,
                                   std::span<const Example> examples, const Progress& progress) {
+  if (result.form() == Form::Map) return std::nullopt;
   if (!needsSurface(options.output, result, plan.output) && options.preview.empty() &&
       options.report.empty())
     return std::nullopt;
@@ -219,6 +227,11 @@ void writeStats(const Options& options, const Result& result, const std::optiona
   writeFile(options.stats, stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+/// Where the example's layers are written beside the result's: `l.png`, `l_example.png`.
+std::filesystem::path exampleLayersPath(const std::filesystem::path& layers) {
+  return layers.parent_path() / (layers.stem().string() + "_example" + layers.extension().string());
+}
+
 /// The result first; what goes with it must not cost it.
 void write(const Options& options, Plan plan, std::span<const Example> examples,
            const Result& result, const std::optional<Surface>& surface, const Times& times,
@@ -238,7 +251,18 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
     writeOriginsVdb(options.origins, result.origins, result.field());
     terminal.wrote("origins", options.origins, options.origins);
   }
-  if (!options.preview.empty()) {
+  if (!options.layers.empty()) {
+    const int layers = layerCount(*result.exampleLayers);
+    writeLayerMap(options.layers, *result.layers, layers);
+    terminal.wrote("layers", options.layers, options.layers);
+    const std::filesystem::path ofExample = exampleLayersPath(options.layers);
+    writeLayerMap(ofExample, *result.exampleLayers, layers);
+    terminal.wrote("layers", ofExample.string(), ofExample.string() + ", the example's");
+  }
+  if (!options.preview.empty() && result.form() == Form::Map) {
+    writeMapLayer(options.preview, result.map().layers.front());
+    terminal.wrote("picture", options.preview, options.preview);
+  } else if (!options.preview.empty()) {
     writePng(options.preview, render(surface->mesh, plan.picture, progress.part(0.9, 0.95)));
     terminal.wrote("picture", options.preview, options.preview);
   }
@@ -293,6 +317,7 @@ void addSettings(CLI::App& command, Settings& into) {
     options.add("Engine " + name + ": " + std::string(engine->meaning()), name, engine->settings());
   }
   options.add("Reading a mesh as polygons", "polygons", readingSettings(Form::Polygons).settings());
+  options.add("Reading a picture as a map", "maps", readingSettings(Form::Map).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Field).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Labels).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Polygons).settings());
@@ -314,7 +339,8 @@ Command addSynthCommand(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    std::string("what to write; its ending chooses the format: of distances ") +
                        outputEndings(Form::Field) + ", of labels " + outputEndings(Form::Labels) +
-                       ", of polygons " + outputEndings(Form::Polygons))
+                       ", of polygons " + outputEndings(Form::Polygons) + ", of maps " +
+                       outputEndings(Form::Map))
       ->required();
   std::string names;
   for (const Engine* engine : engines()) names += "|" + std::string(engine->name());
@@ -333,6 +359,10 @@ Command addSynthCommand(CLI::App& app) {
                       "also write where each sample of the result came from (.vdb)");
   command->add_option("--report", options->report,
                       "also write a page with surfaces that turn, figures and marks (.html)");
+  command->add_option(
+      "--write-layers", options->layers,
+      "also write which layer shows at each pixel, of the result and of the example "
+      "(NAME.png, NAME_example.png): to edit them and give them back");
   addSettings(*command, options->settings);
   addPictureOptions(*command, options->picture, "--picture-size");
   return {command, addCommonOptions(*command),

@@ -19,6 +19,9 @@ const Engine& votingEngine();
 const Engine& blocksEngine();
 /// Model synthesis (Merrell 2007, 2009; `synth/model`).
 const Engine& modelEngine();
+/// Continuous model synthesis (Merrell and Manocha 2008; `synth/continuous`).
 const Engine& continuousEngine();
+/// Layered shape synthesis (Rosenberger, Cohen-Or, Lischinski 2009; `synth/layered`).
+const Engine& layeredEngine();
 
 }  // namespace exemplar

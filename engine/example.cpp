@@ -105,8 +105,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       settingRow<O>("ground", &O::ground,
                     "height below which a mesh has ground that goes on for ever", {}, "world units",
                     "none"),
-      meshUpRow(),
-      normalsRow()};
+      meshUpRow(), normalsRow()};
   static const SettingTable<O> field{
       settingRow<O>("resolution", &O::resolution,
                     "samples along the example's longest side; finer detail is lost", {4, 4096},
@@ -157,7 +156,25 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       grid(),
       meshUpRow(),
       normalsRow()};
-  return form == Form::Field ? field : form == Form::Labels ? labels : polygons;
+  static const SettingTable<O> maps{
+      {{.key = "channel",
+        .type = SettingType::Text,
+        .meaning = "NAME=FILE: another picture of the same surface (its normals, its heights), "
+                   "which is synthesized along",
+        .repeats = true},
+       [](const Setting&, const std::string& text, O& o) {
+         o.channels.push_back(keyAndValue(text, "`channel`", "NAME=FILE"));
+       }}};
+  switch (form) {
+    case Form::Field:
+      return field;
+    case Form::Labels:
+      return labels;
+    case Form::Polygons:
+      return polygons;
+    default:
+      return maps;
+  }
 }
 
 Example readExample(const Source& source, const ReadOptions& options, const Progress& progress) {
@@ -174,6 +191,8 @@ Example readExample(const Source& source, const ReadOptions& options, const Prog
   }
   if (example.reading.form == Form::Field) {
     readAsField(example, progress);
+  } else if (example.reading.form == Form::Map) {
+    readAsMap(example, progress);
   } else if (example.reading.form == Form::Polygons) {
     readAsPolygons(example, progress);
   } else {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "core/warnings.h"
 #include "engine/setting.h"
 #include "engine/source.h"
+#include "maps/map.h"
 #include "mesh/mesh_file.h"
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
@@ -35,10 +37,11 @@ enum class Form {
   Field,     ///< signed distances (geometry synthesis)
   Labels,    ///< a grid of labels (model synthesis)
   Polygons,  ///< solids between planes (continuous model synthesis)
+  Map,       ///< pictures seen from above (layered shape synthesis)
 };
 
 /// An example, or a result, as an engine sees it. In the order of `Form`.
-using Representation = std::variant<DistanceField, LabelGrid, continuous::PolygonModel>;
+using Representation = std::variant<DistanceField, LabelGrid, continuous::PolygonModel, Map>;
 
 /// How distances become labels: blocks of the field.
 struct LabeledField {
@@ -82,9 +85,13 @@ struct ReadOptions {
   FieldBlocksOptions blocks;         ///< how a distance field is cut
 
   // Polygons only:
-  std::optional<double> unit;    ///< of a mesh's grid, world units, > 0; found
-  double snap = 1e-3;            ///< how far a mesh's vertices may move, lengths of its longest side
+  std::optional<double> unit;  ///< of a mesh's grid, world units, > 0; found
+  double snap = 1e-3;          ///< how far a mesh's vertices may move, lengths of its longest side
   std::optional<double> ground;  ///< world height below which all is ground; none
+
+  // Maps only:
+  /// Further pictures of the same surface, by the names of their channels: "normal=wall_n.png".
+  std::vector<std::pair<std::string, std::string>> channels;
 };
 
 /// The settings that fill `ReadOptions`, for examples of a form.
@@ -98,7 +105,7 @@ struct Example {
   std::string description;  ///< for people: "mesh of 23,952 triangles at 64 x 64 x 24 samples"
   /// Distances, truncated at `kExampleHalfWidth` voxels, labels, or faces.
   Representation data;
-  LabelContent content;              ///< of labels
+  LabelContent content;                          ///< of labels
   std::optional<continuous::SolidScene> solids;  ///< of polygons: exactly
   std::optional<TriangleMesh> mesh;  ///< where materials, colors and finer detail come from
   Hints hints;
@@ -113,6 +120,7 @@ struct Example {
   const continuous::PolygonModel& polygons() const {
     return std::get<continuous::PolygonModel>(data);
   }
+  const Map& map() const { return std::get<Map>(data); }
   std::string name() const { return source.name(); }
 };
 
@@ -122,6 +130,7 @@ struct Example {
 /// are windows into something larger, and get none. As labels: a mesh or scene is cut into model
 /// pieces along `cell` or the scene's own grid; a picture into its pieces; what has no grid (a mesh
 /// without `cell`, a height map, a volume) is sampled as a field, whose blocks are labels.
+/// As a map: a picture, with the further pictures of its `channels`.
 /// As polygons: a scene of solids, or a closed mesh, which is snapped to a grid.
 /// Throws `InputError` and `Cancelled`.
 Example readExample(const Source& source, const ReadOptions& options = {},

@@ -16,6 +16,7 @@ namespace exemplar {
 void readAsField(Example& example, const Progress& progress);
 void readAsLabels(Example& example, const Progress& progress);
 void readAsPolygons(Example& example, const Progress& progress);
+void readAsMap(Example& example, const Progress& progress);
 
 /// The scene of a file or its bytes.
 Scene readSceneOf(const Source& source, const ReadOptions& options, const Progress& progress);

@@ -30,6 +30,11 @@ fs::path framePath(const fs::path& path, std::size_t frame) {
   return path.parent_path() / (path.stem().string() + number + path.extension().string());
 }
 
+/// The path of a further channel of a map: `rust.png` becomes `rust_normal.png`.
+fs::path channelPath(const fs::path& path, const std::string& channel) {
+  return path.parent_path() / (path.stem().string() + "_" + channel + path.extension().string());
+}
+
 /// A flat grid as its picture, with cells of several pixels; any other one rendered.
 Image8 frameImage(const LabelGrid& grid, const Example& example, const RenderOptions& picture,
                   const Progress& progress) {
@@ -73,6 +78,25 @@ Written writeFrames(const fs::path& path, const Result& result, const Example& e
           {}};
 }
 
+/// The picture, and those of its further channels beside it: `rust.png`, `rust_normal.png`.
+Written writeMap(const fs::path& path, const Map& map, const OutputOptions& options) {
+  Written written{"picture",
+                  path.string() + ": " + std::to_string(map.width()) + " x " +
+                      std::to_string(map.height()) + " pixels",
+                  {}};
+  for (const MapLayer& layer : map.layers) {
+    if (&layer == &map.layers.front()) {
+      writeMapLayer(path, layer);
+      continue;
+    }
+    const fs::path beside = channelPath(path, layer.name);
+    writeMapLayer(beside, layer);
+    if (options.wrote) options.wrote(beside);
+    written.text += ", " + beside.filename().string();
+  }
+  return written;
+}
+
 Written writeField(const fs::path& path, const Result& result, const Example& example,
                    const Progress& progress) {
   Written written{"field", path.string(), {}};
@@ -103,9 +127,16 @@ Written writeTriangles(const fs::path& path, const TriangleMesh& mesh, const Mes
 }  // namespace
 
 const char* outputEndings(Form form) {
-  return form == Form::Field    ? ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc"
-         : form == Form::Labels ? ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf .gif"
-                                : kMeshEndings;
+  switch (form) {
+    case Form::Field:
+      return ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc";
+    case Form::Labels:
+      return ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf .gif";
+    case Form::Map:
+      return ".png";
+    default:
+      return kMeshEndings;
+  }
 }
 
 void requireOutput(const fs::path& path, const std::string& endings) {
@@ -145,6 +176,7 @@ Written writeResult(const fs::path& path, const Result& result, std::span<const 
                           result.form() == Form::Labels ? "written" : "mesh", options.mesh,
                           progress);
   }
+  if (result.form() == Form::Map) return writeMap(path, result.map(), options);
   if (result.form() == Form::Field) return writeField(path, result, example, progress);
   if (!result.laterFrames.empty()) return writeFrames(path, result, example, options, progress);
   return writeLabels(path, result.labels(), example, options, progress);

@@ -83,7 +83,17 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
       settingRow<O>("shells", &O::shells,
                     "a closed shell of each material, with the faces between two of them, in place "
                     "of the surface that is seen")};
-  return form == Form::Field ? field : form == Form::Labels ? labels : polygons;
+  static const SettingTable<O> maps(std::initializer_list<SettingTable<O>::Row>{});
+  switch (form) {
+    case Form::Field:
+      return field;
+    case Form::Labels:
+      return labels;
+    case Form::Polygons:
+      return polygons;
+    default:
+      return maps;
+  }
 }
 
 void requireSurface(const SurfaceOptions& options, std::span<const Example> examples) {
@@ -100,6 +110,7 @@ Surface realize(const Result& result, std::span<const Example> examples,
                 const SurfaceOptions& options, const Progress& progress) {
   if (result.outcome != Outcome::Complete)
     throw InputError("there is no result to make a surface of: " + result.why);
+  if (result.form() == Form::Map) throw InputError("a map has no surface; write a .png");
   requireSurface(options, examples);
   if (result.form() == Form::Field) {
     return options.surface == SurfaceKind::Copy ? copied(result, examples, progress)
@@ -139,6 +150,8 @@ TriangleMesh contourOf(const Example& example, const Progress& progress) {
 }
 
 TriangleMesh pictured(const Example& example, const Progress& progress) {
+  if (example.form() == Form::Map)
+    throw InputError(example.name() + ": a map is a picture already");
   if (example.form() == Form::Polygons) return *example.mesh;
   if (example.form() == Form::Labels) {
     if (const auto* labeled = std::get_if<LabeledField>(&example.content)) {

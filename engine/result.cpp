@@ -18,6 +18,9 @@ std::string readableExtent(const Result& result) {
       return readableSize(result.field().size(), "samples");
     case Form::Labels:
       return readableSize(result.labels().size(), "cells");
+    case Form::Map:
+      return std::to_string(result.map().width()) + " x " + std::to_string(result.map().height()) +
+             " pixels";
     default: {
       const continuous::PolygonModel& model = result.polygons();
       return readableSize(model.size, "spacings") + ", " +

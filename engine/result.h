@@ -14,6 +14,7 @@
 #include "core/origin.h"
 #include "core/outcome.h"
 #include "engine/example.h"
+#include "maps/layer_map.h"
 
 /// What came out of an engine.
 namespace exemplar {
@@ -46,6 +47,9 @@ struct Result {
   /// example with its label.
   Origins origins;
 
+  /// Of a map that was made by layers: which layer shows, in the example and in the result.
+  std::optional<LayerMap> exampleLayers, layers;
+
   Statistics statistics;
   std::optional<Conflict> conflict;  ///< where it is impossible
   /// What people should know of a complete result: a label and a text, "stationary" and "x, y".
@@ -55,6 +59,7 @@ struct Result {
   Form form() const { return static_cast<Form>(data.index()); }
   const DistanceField& field() const { return std::get<DistanceField>(data); }
   const LabelGrid& labels() const { return std::get<LabelGrid>(data); }
+  const Map& map() const { return std::get<Map>(data); }
   const continuous::PolygonModel& polygons() const {
     return std::get<continuous::PolygonModel>(data);
   }

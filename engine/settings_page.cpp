@@ -75,7 +75,8 @@ Json toJson(const Setting& setting) {
 
 /// "distances", "labels", "polygons".
 std::string_view formName(Form form) {
-  return form == Form::Field ? "distances" : form == Form::Labels ? "labels" : "polygons";
+  constexpr std::string_view kNames[] = {"distances", "labels", "polygons", "maps"};
+  return kNames[static_cast<std::size_t>(form)];
 }
 
 }  // namespace
@@ -102,8 +103,9 @@ std::string settingsPage() {
   text +=
       "\n## Reading an example as distances\n\n" + table(readingSettings(Form::Field).settings());
   text += "\n## Reading an example as labels\n\n" + table(readingSettings(Form::Labels).settings());
-  text += "\n## Reading an example as polygons\n\n" +
-          table(readingSettings(Form::Polygons).settings());
+  text +=
+      "\n## Reading an example as polygons\n\n" + table(readingSettings(Form::Polygons).settings());
+  text += "\n## Reading an example as a map\n\n" + table(readingSettings(Form::Map).settings());
   text += "\n## The surface of a result\n\nOf distances:\n\n" +
           table(surfaceSettings(Form::Field).settings()) + "\nOf labels:\n\n" +
           table(surfaceSettings(Form::Labels).settings()) + "\nOf polygons:\n\n" +

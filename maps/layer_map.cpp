@@ -4,9 +4,20 @@
 #include "maps/layer_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <set>
+#include <string>
+
+#include "core/error.h"
+#include "maps/map.h"
 
 namespace exemplar {
+namespace {
+
+int grayOf(int layer, int layers) { return layers < 2 ? 0 : 255 * (layer - 1) / (layers - 1); }
+
+}  // namespace
 
 int layerCount(const LayerMap& map) { return *std::ranges::max_element(map.values()); }
 
@@ -40,6 +51,47 @@ double orientation(const LayerMap& map) {
     }
   }
   return std::max(alongX, alongY) / std::min(alongX, alongY);
+}
+
+LayerMap readLayerMap(const std::filesystem::path& path, int layers) {
+  const MapLayer picture = readMapLayer(path, "layers");
+  Grid<int> grays(picture.planes[0].width(), picture.planes[0].height());
+  std::set<int> different;
+  for (std::size_t p = 0; p < grays.count(); ++p) {
+    for (const Grid<float>& plane : picture.planes) {
+      if (plane[p] != picture.planes[0][p])
+        throw InputError(path.string() + ": a layer map is gray, and this picture has colors");
+    }
+    different.insert(grays[p] = static_cast<int>(std::lround(255 * picture.planes[0][p])));
+  }
+  std::vector<int> known(different.begin(), different.end());
+  if (layers > 0) {
+    known.clear();
+    for (int i = 1; i <= layers; ++i) known.push_back(grayOf(i, layers));
+  }
+  if (known.size() > static_cast<std::size_t>(kMostLayers)) {
+    throw InputError(path.string() + ": " + std::to_string(known.size()) +
+                     " different grays; a layer map has at most " + std::to_string(kMostLayers));
+  }
+  LayerMap map(grays.width(), grays.height());
+  for (std::size_t p = 0; p < grays.count(); ++p) {
+    const auto found = std::ranges::find(known, grays[p]);
+    if (found == known.end()) {
+      std::string list;
+      for (const int gray : known) list += (list.empty() ? "" : ", ") + std::to_string(gray);
+      throw InputError(path.string() + ": no layer has the gray " + std::to_string(grays[p]) +
+                       "; they are " + list);
+    }
+    map[p] = static_cast<std::uint8_t>(found - known.begin() + 1);
+  }
+  return map;
+}
+
+void writeLayerMap(const std::filesystem::path& path, const LayerMap& map, int layers) {
+  MapLayer picture{"layers", {Grid<float>(map.width(), map.height())}, 8};
+  for (std::size_t p = 0; p < map.count(); ++p)
+    picture.planes[0][p] = static_cast<float>(grayOf(map[p], layers)) / 255;
+  writeMapLayer(path, picture);
 }
 
 }  // namespace exemplar

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
 #include "maps/boundary_patches.h"
 #include "maps/grid.h"
@@ -26,5 +27,12 @@ double skippingShare(const LayerMap& map);
 /// along y, over the smaller. 1 for shapes without a direction; above 1.5 shapes should not be
 /// turned by a quarter.
 double orientation(const LayerMap& map);
+
+/// Reads a layer map from a gray picture: its different grays are the layers, the darkest lowest;
+/// with `layers` above 0 exactly the grays that `writeLayerMap` gives so many layers. Throws
+/// `InputError` where there are more than `kMostLayers` or grays that no layer has.
+LayerMap readLayerMap(const std::filesystem::path& path, int layers = 0);
+/// Writes a layer map as a gray `.png`, from black (the lowest layer) to white (the highest).
+void writeLayerMap(const std::filesystem::path& path, const LayerMap& map, int layers);
 
 }  // namespace exemplar

@@ -65,15 +65,19 @@ std::vector<const Grid<float>*> Map::planes() const {
   return all;
 }
 
-MapLayer readMapLayer(const std::filesystem::path& path, const std::string& name,
-                      std::vector<std::string>* warnings) {
-  const std::string bytes = readFile(path);
+MapLayer decodeMapLayer(std::string_view bytes, const std::string& file, const std::string& name,
+                        Warnings* warnings) {
   bool transparent = false;
-  MapLayer layer = isDeep(bytes) ? layerOf(decodePng16(bytes, path.string()), name, transparent)
-                                 : layerOf(decodeImage(bytes, path.string()), name, transparent);
+  MapLayer layer = isDeep(bytes) ? layerOf(decodePng16(bytes, file), name, transparent)
+                                 : layerOf(decodeImage(bytes, file), name, transparent);
   if (transparent && warnings)
-    warnings->push_back(path.string() + ": opacity is not synthesized and was dropped");
+    warnings->push_back(file + ": opacity is not synthesized and was dropped");
   return layer;
+}
+
+MapLayer readMapLayer(const std::filesystem::path& path, const std::string& name,
+                      Warnings* warnings) {
+  return decodeMapLayer(readFile(path), path.string(), name, warnings);
 }
 
 void writeMapLayer(const std::filesystem::path& path, const MapLayer& layer) {

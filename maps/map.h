@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/warnings.h"
 #include "maps/grid.h"
 
 /// Maps: rectangles of several channels, seen from above. A texture, a height map, a scanned
@@ -34,10 +35,14 @@ struct Map {
   std::vector<const Grid<float>*> planes() const;
 };
 
-/// Reads a picture (`.png` of any depth, `.jpg`) as one layer of a map. Opacity is dropped with a
-/// warning unless it is 1 everywhere. Throws `InputError`.
+/// A picture (the bytes of a `.png` of any depth, or of a `.jpg`) as one layer of a map. `file` is
+/// what errors call it. Opacity is dropped with a warning unless it is 1 everywhere. Throws
+/// `InputError`.
+MapLayer decodeMapLayer(std::string_view bytes, const std::string& file, const std::string& name,
+                        Warnings* warnings = nullptr);
+/// The same from a file.
 MapLayer readMapLayer(const std::filesystem::path& path, const std::string& name,
-                      std::vector<std::string>* warnings = nullptr);
+                      Warnings* warnings = nullptr);
 
 /// Writes a layer as a `.png` of its own depth, whole or not at all. Throws `InputError`.
 void writeMapLayer(const std::filesystem::path& path, const MapLayer& layer);

@@ -15,6 +15,7 @@
 #include "core/cells.h"
 #include "core/disjoint_sets.h"
 #include "core/error.h"
+#include "measure/distribution.h"
 
 namespace exemplar {
 namespace {
@@ -273,20 +274,6 @@ int layerOfObjects(std::span<const Measured> examples, const Progress& progress)
     }
   }
   return best;
-}
-
-/// The largest difference of two samples' cumulative distributions; both ascending, not empty.
-double kolmogorovSmirnov(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0;
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    const double value = std::min(a[i], b[j]);
-    while (i < a.size() && a[i] == value) ++i;
-    while (j < b.size() && b[j] == value) ++j;
-    most = std::max(most, std::abs(static_cast<double>(i) / static_cast<double>(a.size()) -
-                                   static_cast<double>(j) / static_cast<double>(b.size())));
-  }
-  return most;
 }
 
 std::optional<double> compareSizes(const Objects& example, const Objects& result) {

@@ -17,11 +17,11 @@ class List {
 
   void group(std::string name) { group_ = std::move(name); }
   template <class T>
-  void add(const char* key, const T& value, const char* meaning) {
+  void add(std::string key, const T& value, const char* meaning) {
     figures.push_back({group_, key, value, meaning});
   }
   template <class T>
-  void add(const char* key, const std::optional<T>& value, const char* meaning) {
+  void add(std::string key, const std::optional<T>& value, const char* meaning) {
     if (value) {
       add(key, *value, meaning);
     } else {
@@ -148,6 +148,27 @@ std::vector<Figure> figures(const Content& c) {
   list.add("js3_halves", c.halvesDivergence[2], "between two halves of the example");
   list.add("in3", c.known, "blocks of 3 cells a side that the example shows; 1 for copies");
   list.add("copy8", c.copied, "windows of 8 x 8 columns verbatim in the example; 0 is new");
+  return std::move(list.figures);
+}
+
+std::vector<Figure> figures(const LayersLikeness& l) {
+  List list;
+  list.group("layers");
+  for (const LayerLikeness& layer : l.layers) {
+    const std::string name = "layer" + std::to_string(layer.layer) + "_";
+    list.add(name + "area_error", layer.areaError, "share of pixels less the example's; 0 is best");
+    list.add(name + "boundary_ratio", layer.boundaryRatio,
+             "boundary over the example's; 1 is best");
+    list.add(name + "to_example", layer.toExample,
+             "distance of its patches to the example's, of a patch; 0 is best");
+    list.add(name + "to_result", layer.toResult, "distance of the example's to its; 0 is best");
+    list.add(name + "component_sizes", layer.componentSizes,
+             "Kolmogorov-Smirnov distance of sizes; 0 is best");
+  }
+  list.add("skipping", l.skipping, "share of steps between layers that skip one");
+  list.add("skipping_example", l.exampleSkipping, "the same in the example");
+  list.add("repeated", l.repeated, "share of windows that occur twice; 0 is best");
+  list.add("repeated_example", l.exampleRepeated, "the same in the example");
   return std::move(list.figures);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "measure/content.h"
+#include "measure/layers.h"
 #include "measure/measure.h"
 
 namespace exemplar {
@@ -17,7 +18,7 @@ namespace exemplar {
 /// not measured or has no meaning for this input.
 struct Figure {
   std::string group;  ///< "likeness", "novelty", "seams", "mesh", "collapse",
-                      ///< "content": an object in JSON
+                      ///< "content", "layers": an object in JSON
   std::string key;    ///< lower case, unique within its group: "lp_dense"
   std::variant<std::monostate, bool, std::int64_t, double, std::string> value;
   std::string meaning;  ///< a few words for a table: what it is, and what is good
@@ -27,6 +28,8 @@ struct Figure {
 std::vector<Figure> figures(const Measures& measures);
 /// Those of labels.
 std::vector<Figure> figures(const Content& content);
+/// Those of layer maps.
+std::vector<Figure> figures(const LayersLikeness& layers);
 
 /// The figures as lines of text for a terminal, a heading for each group; "-" for what is null.
 std::string figuresTable(const std::vector<Figure>& figures);

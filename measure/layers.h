@@ -1,0 +1,45 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/progress.h"
+#include "maps/layer_map.h"
+
+namespace exemplar {
+
+/// One layer of a result against the example's.
+struct LayerLikeness {
+  int layer = 2;
+  double areaError = 0;  ///< share of pixels inside, less the example's; 0 is best
+  /// Boundary pixels per pixel over the example's; 1 is best. Nothing where the example has none.
+  std::optional<double> boundaryRatio;
+  /// The two directions of the distance of shapes (Rosenberger, Cohen-Or, Lischinski 2009,
+  /// equations 1 to 3): the mean distance of the result's boundary patches of 15 x 15 pixels to
+  /// their nearest of the example (is everything here from there?), and of the example's to their
+  /// nearest of the result (is everything from there here?), as shares of the patch; 0 is best.
+  std::optional<double> toExample, toResult;
+  /// Kolmogorov-Smirnov distance of the sizes of components, 0..1; 0 is best. What patches do not
+  /// see. Nothing where either has none.
+  std::optional<double> componentSizes;
+};
+
+/// A layer map against its example.
+struct LayersLikeness {
+  std::vector<LayerLikeness> layers;
+  double skipping = 0, exampleSkipping = 0;  ///< `skippingShare`
+  /// Of windows of 32 x 32 pixels with two layers or more, the share that occurs elsewhere in the
+  /// same map but for 3 % of its pixels, and the same of the example. 0 is best.
+  std::optional<double> repeated, exampleRepeated;
+};
+
+/// Measures a layer map, which is taken for a torus, against its example. Up to 2,000 patches of
+/// each are looked up among all (up to 20,000) of the other. The same at any number of threads.
+/// Throws `InputError` where the result has layers that the example has not, and `Cancelled`.
+LayersLikeness measureLayers(const LayerMap& example, bool exampleWraps, const LayerMap& result,
+                             const Progress& progress = {});
+
+}  // namespace exemplar
