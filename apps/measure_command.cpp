@@ -23,6 +23,7 @@ namespace {
 
 struct Options {
   std::string example, result, origins, json, report;
+  bool layers = false;
   Settings settings;
   PictureOptions picture;
 };
@@ -59,13 +60,26 @@ bool isOfLabels(const Options& options) {
   return result == SourceKind::HeightMap && sourceKind(options.example) == SourceKind::Labels;
 }
 
-void measureLabels(const Options& options, Terminal& terminal) {
+/// Refuses what only results with a surface have.
+void requireNoSurface(const Options& options, const std::string& what) {
   for (const auto& [name, given] : {std::pair{"--report", !options.report.empty()},
                                     {"--origins", !options.origins.empty()},
                                     {"--scale", options.settings.has("scale")}}) {
     if (given)
-      throw InputError(std::string(name) + ": has no meaning for a result of labels; leave it out");
+      throw InputError(std::string(name) + ": has no meaning for " + what + "; leave it out");
   }
+}
+
+void measureLayerMaps(const Options& options, Terminal& terminal) {
+  requireNoSurface(options, "layer maps");
+  const LayerMap example = readLayerMap(options.example);
+  const LayerMap result = readLayerMap(options.result, layerCount(example));
+  writeFigures(options, figures(measureLayers(example, false, result, terminal.progress())),
+               terminal);
+}
+
+void measureLabels(const Options& options, Terminal& terminal) {
+  requireNoSurface(options, "a result of labels");
   const Progress& progress = terminal.progress();
   const Example example = readExample(options.example, readingOf(options.settings, Form::Labels),
                                       progress.part(0, 0.4));
@@ -77,6 +91,7 @@ void measureLabels(const Options& options, Terminal& terminal) {
 void measureFiles(const Options& options, Terminal& terminal) {
   if (!options.json.empty() && options.json != "-") requireOutput(options.json, ".json");
   if (!options.report.empty()) requireOutput(options.report, ".html");
+  if (options.layers) return measureLayerMaps(options, terminal);
   if (isOfLabels(options)) return measureLabels(options, terminal);
   RenderOptions picture = renderOptions(options.picture);
   const Request request = requestOf(options.settings);
@@ -122,6 +137,8 @@ Command addMeasureCommand(CLI::App& app) {
     rows.add("Result", "", {&setting, 1});
   }
   rows.install(*command, options->settings);
+  command->add_flag("--layers", options->layers,
+                    "both are gray pictures of layers, as synth --write-layers writes them");
   command->add_option("--json", options->json, "write the figures to this .json; - prints them");
   command->add_option("--report", options->report,
                       "write a page with surfaces that turn, figures and marks (.html)");

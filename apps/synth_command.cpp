@@ -217,6 +217,10 @@ void writeStats(const Options& options, const Result& result, const std::optiona
                 {"outcome", outcomeName(result.outcome)}};
   stats.update(toJson(result.statistics));
   if (surface) stats["mesh"] = toJson(surface->health);
+  if (result.layers) {
+    stats.update(toJson(
+        figures(measureLayers(*result.exampleLayers, false, *result.layers))));
+  }
   stats["warnings"] = terminal.warnings();
   const double total = times.total.seconds();
   stats["seconds"] = {{"read", times.read},

@@ -220,7 +220,7 @@ class LayeredEngine final : public Engine {
     for (const double share : found.shares)
       shares += (shares.empty() ? "" : ", ") + numberText(std::round(100 * share)) + " %";
     result.notes.emplace_back("layers", "bottom up " + shares);
-    result.statistics = {{"layers", std::int64_t{layers}},
+    result.statistics = {{"layer_count", std::int64_t{layers}},
                          {"orientations", std::int64_t{settings.layers.shape.turns}},
                          {"skipping", skippingShare(made.map)},
                          {"skipping_example", found.skipping}};

@@ -1,0 +1,479 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/layered/layers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "core/error.h"
+#include "maps/distance_transform.h"
+#include "measure/layers.h"
+#include "synth/layered/texture_by_numbers.h"
+#include "tests/progress_checks.h"
+#include "tests/synth/layered/layer_samples.h"
+#include "tests/threads.h"
+
+namespace exemplar {
+namespace {
+
+using testing::discs;
+using testing::noiseLayers;
+
+Shape randomShape(int width, int height, std::uint64_t seed) {
+  return layerShape(noiseLayers(width, height, 2, seed), 2);
+}
+
+// --- Patches -----------------------------------------------------------------------------------
+
+TEST(BoundaryPatches, DifferByAsManyPixelsAsAreCounted) {
+  const Shape a = randomShape(60, 50, 1), b = randomShape(70, 45, 2);
+  constexpr int kSide = 11, kHalf = kSide / 2;
+  const std::vector<Pixel> ofA = boundaryOf(a, true), ofB = boundaryOf(b, false);
+  const BoundaryPatches set(a, ofA, kSide, 1, true), examples(b, ofB, kSide, 8, false);
+  int partial = 0;
+  for (std::size_t i = 0; i < ofA.size(); i += 7) {
+    for (std::size_t j = 0; j < ofB.size(); j += 11) {
+      for (int turn = 0; turn < 8; ++turn) {
+        int differing = 0, known = 0;
+        for (int dy = -kHalf; dy <= kHalf; ++dy) {
+          for (int dx = -kHalf; dx <= kHalf; ++dx) {
+            const Pixel step = turnedStep({dx, dy}, turn);
+            const int x = ofB[j].x + step.x, y = ofB[j].y + step.y;
+            if (!b.contains(x, y)) continue;
+            ++known;
+            differing += b(x, y) != a[a.wrapped(ofA[i].x + dx, ofA[i].y + dy)];
+          }
+        }
+        partial += known < kSide * kSide;
+        EXPECT_EQ(patchDistance(set, i, examples, j, turn),
+                  std::lround(static_cast<double>(differing) * kSide * kSide / known));
+      }
+    }
+  }
+  EXPECT_GT(partial, 0);
+}
+
+TEST(BoundaryPatches, TurnFourTimesToWhatTheyWere) {
+  for (int turn = 0; turn < 8; ++turn) {
+    Pixel step{3, -2};
+    const int times = turn >= 4 && turn % 2 == 1 ? 2 : turn >= 4 ? 4 : 4;
+    for (int t = 0; t < times; ++t) step = turnedStep(step, turn);
+    EXPECT_EQ(step, (Pixel{3, -2})) << turn;
+  }
+  // Eight different places.
+  std::set<std::pair<int, int>> places;
+  for (int turn = 0; turn < 8; ++turn) {
+    const Pixel step = turnedStep({3, -2}, turn);
+    places.insert({step.x, step.y});
+  }
+  EXPECT_EQ(places.size(), 8u);
+}
+
+TEST(NearestPatches, AreThoseOfAFullSearch) {
+  const Shape a = randomShape(60, 50, 1), b = randomShape(70, 45, 2);
+  const std::vector<Pixel> ofA = boundaryOf(a, true), ofB = boundaryOf(b, false);
+  const BoundaryPatches set(a, ofA, 15, 1, true), examples(b, ofB, 15, 4, false);
+  const NearestPatches nearest(examples);
+  std::vector<std::uint32_t> left(examples.count());
+  for (std::size_t e = 0; e < left.size(); ++e) left[e] = e % 3;
+  for (const bool some : {false, true}) {
+    for (std::size_t s = 0; s < set.count(); s += 5) {
+      std::vector<std::pair<int, std::uint32_t>> all;
+      for (std::uint32_t e = 0; e < examples.count(); ++e) {
+        if (some && left[e] == 0) continue;
+        int least = 1 << 30;
+        for (int t = 0; t < 4; ++t) least = std::min(least, patchDistance(set, s, examples, e, t));
+        all.emplace_back(least, e);
+      }
+      std::ranges::sort(all);
+      std::vector<PatchMatch2D> found;
+      nearest.find(set, s, 8,
+                   some ? std::span<const std::uint32_t>(left) : std::span<const std::uint32_t>(),
+                   found);
+      ASSERT_EQ(found.size(), 8u);
+      for (std::size_t n = 0; n < 8; ++n) {
+        EXPECT_EQ(found[n].distance, all[n].first);
+        EXPECT_EQ(found[n].patch, all[n].second);
+        EXPECT_EQ(patchDistance(set, s, examples, found[n].patch, found[n].turn),
+                  found[n].distance);
+      }
+    }
+  }
+}
+
+TEST(RemoveSmall, TurnsOverWhatIsSmallAndNothingElse) {
+  Shape shape(20, 20);
+  for (int y = 2; y < 8; ++y)
+    for (int x = 2; x < 8; ++x) shape(x, y) = 1;
+  shape(4, 4) = 0;    // a hole
+  shape(15, 15) = 1;  // a speck
+  removeSmall(shape, 5, 5, true);
+  EXPECT_EQ(shape(4, 4), 1);
+  EXPECT_EQ(shape(15, 15), 0);
+  EXPECT_EQ(componentSizes(shape, true, true), (std::vector<std::uint32_t>{36}));
+}
+
+// --- Assignment --------------------------------------------------------------------------------
+
+struct Instance {
+  BoundaryPatches set, examples;
+};
+Instance instance(int side, std::uint64_t seed) {
+  const Shape a = randomShape(side, side, seed), b = randomShape(side / 2, side / 2, seed + 1);
+  return {BoundaryPatches(a, boundaryOf(a, true), 15, 1, true),
+          BoundaryPatches(b, boundaryOf(b, true), 15, 4, true)};
+}
+
+TEST(AssignPatches, UsesEveryExampleAlike) {
+  for (const AssignmentKind kind : {AssignmentKind::Greedy, AssignmentKind::Exact}) {
+    const Instance i = instance(70, 3);
+    const std::size_t wanted = i.set.count(), examples = i.examples.count();
+    const std::vector<std::uint32_t> uses = fairUses(wanted, examples, Random(1));
+    EXPECT_EQ(std::accumulate(uses.begin(), uses.end(), std::size_t{0}), wanted);
+    for (const std::uint32_t u : uses) {
+      EXPECT_GE(u, wanted / examples);
+      EXPECT_LE(u, wanted / examples + 1);
+    }
+    const auto matches = assignPatches(i.set, i.examples, uses, kind, Random(2));
+    std::vector<std::uint32_t> used(examples);
+    for (std::size_t s = 0; s < matches.size(); ++s) {
+      ++used[matches[s].patch];
+      EXPECT_EQ(patchDistance(i.set, s, i.examples, matches[s].patch, matches[s].turn),
+                matches[s].distance);
+    }
+    EXPECT_EQ(used, uses);
+  }
+}
+
+TEST(AssignPatches, GreedyIsNearTheOptimum) {
+  for (const std::uint64_t seed : {3u, 5u, 8u}) {
+    const Instance i = instance(70, seed);
+    ASSERT_LE(i.set.count(), 1000u);
+    const auto uses = fairUses(i.set.count(), i.examples.count(), Random(1));
+    const auto cost = [&](AssignmentKind kind) {
+      double sum = 0;
+      for (const auto& m : assignPatches(i.set, i.examples, uses, kind, Random(2)))
+        sum += m.distance;
+      return sum;
+    };
+    const double greedy = cost(AssignmentKind::Greedy), exact = cost(AssignmentKind::Exact);
+    EXPECT_LE(exact, greedy);
+    EXPECT_LE(greedy, 1.15 * exact) << seed;
+  }
+}
+
+TEST(AssignPatches, ExactIsTheOptimumOfSmallInstances) {
+  // All permutations of seven patches.
+  const Shape a = randomShape(50, 50, 1), b = randomShape(50, 50, 2);
+  const auto some = [](const std::vector<Pixel>& all) {
+    std::vector<Pixel> seven;
+    for (std::size_t n = 0; n < 7; ++n) seven.push_back(all[n * all.size() / 7]);
+    return seven;
+  };
+  const BoundaryPatches set(a, some(boundaryOf(a, true)), 15, 1, true);
+  const BoundaryPatches examples(b, some(boundaryOf(b, true)), 15, 4, true);
+  std::vector<std::size_t> order(7);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  int least = 1 << 30;
+  do {
+    int sum = 0;
+    for (std::size_t s = 0; s < 7; ++s) {
+      int best = 1 << 30;
+      for (int t = 0; t < 4; ++t)
+        best = std::min(best, patchDistance(set, s, examples, order[s], t));
+      sum += best;
+    }
+    least = std::min(least, sum);
+  } while (std::ranges::next_permutation(order).found);
+  int sum = 0;
+  for (const auto& m : assignPatches(set, examples, std::vector<std::uint32_t>(7, 1),
+                                     AssignmentKind::Exact, Random(1)))
+    sum += m.distance;
+  EXPECT_EQ(sum, least);
+}
+
+// --- Shapes ------------------------------------------------------------------------------------
+
+TEST(OptimizeShape, LeavesTheExampleItselfAsItIs) {
+  const Shape shape = randomShape(64, 64, 4);
+  ShapeOptions options;
+  options.exampleWraps = true;
+  const ShapeExample example = shapeExample(shape, options, Random(1));
+  const OptimizedShape made = optimizeShape(shape, example, nullptr, options, Random(2));
+  EXPECT_EQ(made.shape, shape);
+  EXPECT_EQ(made.iterations, 1);
+  for (const PatchMatch2D& match : made.placed.matches) EXPECT_EQ(match.distance, 0);
+}
+
+TEST(SetArea, AddsAndTakesExactlyAndStaysInTheMask) {
+  const Shape shape = randomShape(64, 64, 4);
+  const PatchVotes votes{Grid<float>(64, 64), Grid<float>(64, 64)};
+  for (const std::int64_t target : {200, 1500, 3000, 4000}) {
+    Shape changed = shape;
+    EXPECT_TRUE(setArea(changed, target, votes, nullptr, Random(1)));
+    EXPECT_EQ(std::ranges::count(changed.values(), 1), target);
+  }
+  Shape mask(64, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 32; ++x) mask(x, y) = 1;
+  Shape within = shape;
+  for (std::size_t p = 0; p < within.count(); ++p) within[p] &= mask[p];
+  EXPECT_FALSE(setArea(within, 4000, votes, &mask, Random(1)));
+  EXPECT_EQ(within, mask);
+}
+
+// --- Layers ------------------------------------------------------------------------------------
+
+TEST(SynthesizeLayers, KeepsAreasNestingAndLikeness) {
+  for (const LayerMap& example : {discs(160, 120, 9, 1), noiseLayers(160, 120, 4, 2)}) {
+    const SynthesizedLayers made = synthesizeLayers(example, 240, 200, {});
+    const int layers = layerCount(example);
+    for (int i = 2; i <= layers; ++i) {
+      const double wanted = areaOf(layerShape(example, i)), got = areaOf(layerShape(made.map, i));
+      EXPECT_NEAR(got, wanted, 1.0 / static_cast<double>(made.map.count())) << i;
+    }
+    EXPECT_LE(skippingShare(made.map), skippingShare(example));
+    const LayersLikeness likeness = measureLayers(example, false, made.map);
+    for (const LayerLikeness& layer : likeness.layers) {
+      const double most = layer.layer == 2 ? 0.03 : 0.05;
+      EXPECT_LT(*layer.toExample, most) << layer.layer;
+      EXPECT_LT(*layer.toResult, most) << layer.layer;
+      EXPECT_NEAR(*layer.boundaryRatio, 1, 0.15) << layer.layer;
+    }
+  }
+}
+
+TEST(SynthesizeLayers, ComesNearerToTheExampleThanItBegan) {
+  const LayerMap example = noiseLayers(160, 120, 3, 2);
+  LayerOptions once;
+  once.shape.iterations = 1;
+  once.shape.levels = 1;
+  const auto distance = [&](const LayerOptions& options) {
+    const LayersLikeness l =
+        measureLayers(example, false, synthesizeLayers(example, 160, 120, options).map);
+    return *l.layers[0].toExample + *l.layers[0].toResult;
+  };
+  EXPECT_LT(distance({}), 0.7 * distance(once));
+}
+
+TEST(SynthesizeLayers, MakesDiscsOfDiscs) {
+  const LayerMap example = discs(200, 200, 10, 1);
+  const SynthesizedLayers made = synthesizeLayers(example, 240, 240, {});
+  const double disc = 3.1416 * 10 * 10;
+  int whole = 0, all = 0;
+  for (const std::uint32_t size : componentSizes(layerShape(made.map, 2), true, true)) {
+    whole += std::abs(size / disc - 1) <= 0.15;
+    ++all;
+  }
+  EXPECT_GE(whole, 0.8 * all) << whole << " of " << all;
+}
+
+TEST(SynthesizeLayers, IsTheSameForASeedAtAnyNumberOfThreadsAndAnotherForAnother) {
+  const LayerMap example = noiseLayers(96, 96, 3, 2);
+  LayerOptions options;
+  const auto made =
+      testing::onThreads(1, [&] { return synthesizeLayers(example, 128, 96, options).map; });
+  EXPECT_EQ(testing::onThreads(8, [&] { return synthesizeLayers(example, 128, 96, options).map; }),
+            made);
+  options.seed = 1;
+  const LayerMap other = synthesizeLayers(example, 128, 96, options).map;
+  std::size_t differing = 0;
+  for (std::size_t p = 0; p < made.count(); ++p) differing += made[p] != other[p];
+  EXPECT_GT(differing, made.count() / 20);
+}
+
+TEST(SynthesizeLayers, TakesTinyAndOneSidedExamples) {
+  LayerMap tiny(5, 4, 1);
+  tiny(2, 2) = tiny(3, 2) = 2;
+  EXPECT_EQ(synthesizeLayers(tiny, 9, 7, {}).map.count(), 63u);
+  // A layer that covers nearly everything, and one of a single pixel.
+  LayerMap extreme(40, 40, 2);
+  extreme(0, 0) = 1;
+  extreme(20, 20) = 3;
+  EXPECT_EQ(synthesizeLayers(extreme, 50, 50, {}).map.count(), 2500u);
+}
+
+TEST(SynthesizeLayers, ReportsAndHearsCancellation) {
+  const LayerMap example = noiseLayers(96, 96, 3, 2);
+  testing::expectReportsAndStops(
+      5, [&](const Progress& progress) { synthesizeLayers(example, 96, 96, {}, progress); });
+}
+
+// --- Decomposition -----------------------------------------------------------------------------
+
+/// A picture whose layers differ in color, with noise.
+MapLayer painted(const LayerMap& map, std::uint64_t seed) {
+  MapLayer layer{"color", std::vector<Grid<float>>(3, Grid<float>(map.width(), map.height())), 8};
+  const Random random(seed);
+  for (std::size_t p = 0; p < map.count(); ++p)
+    for (std::uint32_t c = 0; c < 3; ++c)
+      layer.planes[c][p] = static_cast<float>(0.15 + 0.17 * map[p] * (c == 0 ? 1 : 0.7) +
+                                              0.05 * random.uniform(p, c));
+  return layer;
+}
+
+TEST(DecomposeTexture, FindsPaintedLayers) {
+  const LayerMap map = noiseLayers(160, 120, 4, 2);
+  DecompositionOptions options;
+  options.neighborhood = 5;
+  const Decomposition found = decomposeTexture(painted(map, 1), options, 0);
+  // Bottom up or top down, as the larger end says; equal here.
+  std::size_t same = 0, reversed = 0;
+  for (std::size_t p = 0; p < map.count(); ++p) {
+    same += found.map[p] == map[p];
+    reversed += found.map[p] == 5 - map[p];
+  }
+  EXPECT_GT(std::max(same, reversed), map.count() * 8 / 10);
+  EXPECT_LT(found.skipping, 0.02);
+}
+
+TEST(DecomposeTexture, RefusesWhatHasNoLayers) {
+  const MapLayer gray{"color", {Grid<float>(40, 40, 0.5f)}, 8};
+  EXPECT_THROW(decomposeTexture(gray, {}, 0), InputError);
+  EXPECT_THROW(decomposeHeights(gray.planes[0], {}), InputError);
+}
+
+TEST(DecomposeHeights, CutsAtEqualAreas) {
+  Grid<float> heights(100, 100);
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) heights(x, y) = static_cast<float>(x * x + y) / 20000;
+  DecompositionOptions options;
+  options.layers = 5;
+  const Decomposition found = decomposeHeights(heights, options);
+  for (const double share : found.shares) EXPECT_NEAR(share, 0.2, 0.01);
+  EXPECT_EQ(found.skipping, 0);
+}
+
+// --- Control maps ------------------------------------------------------------------------------
+
+TEST(DistanceTo, IsTheNearestPixels) {
+  const Random random(3);
+  for (const bool wraps : {false, true}) {
+    Shape shape(37, 23);
+    for (std::size_t p = 0; p < shape.count(); ++p) shape[p] = random.uniform(p) < 0.02;
+    const Grid<float> distance = distanceTo(shape, wraps);
+    for (int y = 0; y < 23; ++y) {
+      for (int x = 0; x < 37; ++x) {
+        double least = 1e9;
+        for (int v = 0; v < 23; ++v) {
+          for (int u = 0; u < 37; ++u) {
+            if (!shape(u, v)) continue;
+            double dx = std::abs(u - x), dy = std::abs(v - y);
+            if (wraps) {
+              dx = std::min(dx, 37 - dx);
+              dy = std::min(dy, 23 - dy);
+            }
+            least = std::min(least, std::hypot(dx, dy));
+          }
+        }
+        EXPECT_NEAR(distance(x, y), least, 1e-4);
+      }
+    }
+  }
+  const Grid<float> none = distanceTo(Shape(4, 4), false);
+  EXPECT_TRUE(std::isinf(none(1, 1)));
+}
+
+TEST(ControlMaps, StayWithinTheirLayer) {
+  const LayerMap example = noiseLayers(80, 60, 4, 2), result = noiseLayers(90, 70, 4, 3);
+  const ControlMaps maps = controlMaps(example, false, result);
+  for (const auto& [map, control] : {std::pair{&example, &maps.example}, {&result, &maps.result}}) {
+    for (std::size_t p = 0; p < map->count(); ++p) {
+      EXPECT_GE((*control)[p], (*map)[p]);
+      EXPECT_LE((*control)[p], (*map)[p] + 1);
+    }
+  }
+}
+
+// --- Textures ----------------------------------------------------------------------------------
+
+TEST(SynthesizeTexture, FollowsTheLayers) {
+  const LayerMap example = noiseLayers(96, 96, 3, 2), wanted = noiseLayers(112, 96, 3, 5);
+  Map map;
+  map.layers.push_back(painted(example, 1));
+  // A second picture that says which layer a pixel shows: it must come out aligned.
+  MapLayer which{"layer", {Grid<float>(96, 96)}, 8};
+  for (std::size_t p = 0; p < example.count(); ++p) which.planes[0][p] = 0.1f * example[p];
+  map.layers.push_back(which);
+  const ControlMaps control = controlMaps(example, false, wanted);
+  const TextureOptions options{.guide = 3};
+  const GuidedTexture made = synthesizeTexture(map, control.example, control.result, options);
+  std::size_t right = 0, all = 0, aligned = 0;
+  for (int y = 0; y < 96; ++y) {
+    for (int x = 0; x < 112; ++x) {
+      bool far = true;
+      for (int dy = -4; dy <= 4; ++dy)
+        for (int dx = -4; dx <= 4; ++dx)
+          far &= wanted[wanted.wrapped(x + dx, y + dy)] == wanted(x, y);
+      if (!far) continue;
+      ++all;
+      const Pixel& from = made.origins(x, y);
+      right += example(from.x, from.y) == wanted(x, y);
+      aligned += std::lround(10 * made.map.layers[1].planes[0](x, y)) == wanted(x, y);
+    }
+  }
+  ASSERT_GT(all, 400u);
+  EXPECT_GE(static_cast<double>(right), 0.98 * static_cast<double>(all));
+  EXPECT_GE(static_cast<double>(aligned), 0.98 * static_cast<double>(all));
+}
+
+TEST(SynthesizeTexture, IsTheSameAtAnyNumberOfThreads) {
+  const LayerMap example = noiseLayers(64, 64, 3, 2), wanted = noiseLayers(64, 64, 3, 5);
+  Map map;
+  map.layers.push_back(painted(example, 1));
+  const ControlMaps control = controlMaps(example, false, wanted);
+  const auto make = [&] { return synthesizeTexture(map, control.example, control.result, {}); };
+  const GuidedTexture one = testing::onThreads(1, make), eight = testing::onThreads(8, make);
+  EXPECT_EQ(one.map.layers[0].planes, eight.map.layers[0].planes);
+}
+
+TEST(SynthesizeTexture, RefusesExamplesSmallerThanAPatch) {
+  Map map;
+  map.layers.push_back({"color", {Grid<float>(4, 4)}, 8});
+  EXPECT_THROW(synthesizeTexture(map, Grid<float>(4, 4), Grid<float>(32, 32), {}), InputError);
+}
+
+// --- Figures -----------------------------------------------------------------------------------
+
+TEST(MeasureLayers, OfTheExampleItselfIsPerfect) {
+  const LayerMap map = noiseLayers(128, 128, 3, 2);
+  for (const LayerLikeness& layer : measureLayers(map, true, map).layers) {
+    EXPECT_EQ(layer.areaError, 0);
+    EXPECT_EQ(layer.boundaryRatio, 1);
+    EXPECT_EQ(layer.toExample, 0);
+    EXPECT_EQ(layer.toResult, 0);
+    EXPECT_EQ(layer.componentSizes, 0);
+  }
+}
+
+TEST(MeasureLayers, TellsNoiseStripesAndCopiesApart) {
+  const LayerMap map = noiseLayers(128, 128, 3, 2);
+  // White noise of the same areas is like nothing; vertical stripes lack what the example has.
+  LayerMap noise(128, 128), stripes(128, 128);
+  const Random random(1);
+  for (int y = 0; y < 128; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      noise(x, y) = static_cast<std::uint8_t>(1 + random.below(3, noise.index(x, y)));
+      stripes(x, y) = static_cast<std::uint8_t>(1 + x / 16 % 3);
+    }
+  }
+  const LayersLikeness ofNoise = measureLayers(map, true, noise);
+  EXPECT_GT(*ofNoise.layers[0].toExample, 0.2);
+  EXPECT_GT(*ofNoise.layers[0].boundaryRatio, 4);
+  const LayersLikeness ofStripes = measureLayers(map, true, stripes);
+  EXPECT_GT(*ofStripes.layers[0].toResult, 2 * *ofStripes.layers[0].toExample);
+  // The example twice, side by side: every window occurs twice.
+  LayerMap twice(256, 128);
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 256; ++x) twice(x, y) = map(x % 128, y);
+  const LayersLikeness tiled = measureLayers(map, true, twice);
+  EXPECT_GT(*tiled.repeated, 0.5);
+  EXPECT_LT(*tiled.exampleRepeated, 0.2);
+}
+
+}  // namespace
+}  // namespace exemplar
