@@ -26,7 +26,8 @@ enum Name : std::uint32_t {
   kBlockAccept = 0x4C424C32,  ///< whether a modified block is kept
   kLimits = 0x4C424C33,       ///< where a limit on counts or connectedness is worked on
   // synth/continuous
-  kFigureChoice = 0x46494731,  ///< which figure a vertex takes
+  kFigureChoice = 0x46494731,    ///< which figure a vertex takes
+  kFigureLearning = 0x46494732,  ///< trial results in which weights are learned
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,

@@ -13,6 +13,7 @@
 #include "synth/continuous/polygons.h"
 #include "synth/continuous/search.h"
 #include "synth/continuous/solids.h"
+#include "synth/continuous/weights.h"
 
 /// Continuous model synthesis: P. Merrell and D. Manocha, "Continuous Model Synthesis", ACM
 /// Transactions on Graphics 27(5) (SIGGRAPH Asia), 2008, doi:10.1145/1409060.1409111; P. Merrell,
@@ -40,9 +41,8 @@ struct ContinuousOptions {
   Vec3i size{1, 1, 1};        ///< of the result, in spacings
   std::uint64_t seed = 0;
   std::optional<std::int64_t> spacing;  ///< of planes, units; found
-  /// How full the result is, in shares of the example: weights of all that is not empty are
-  /// multiplied by it. > 0.
-  double density = 1;
+  double density = 1;         ///< how full the result is, in shares of the example's, > 0
+  int learning = 6;           ///< rounds in which weights are adapted to the example's shares, >= 0
   std::int64_t budget = 0;  ///< failed choices of an attempt; 0: 1,000 and a tenth of the vertices
   int attempts = 3;         ///< in one pass, before blocks
   int block = 20;           ///< side of a block, spacings
@@ -60,9 +60,7 @@ struct ContinuousStatistics {
   std::int64_t choices = 0, failures = 0, attempts = 0, blocks = 0, blocksKept = 0, exact = 0;
   std::size_t polygons = 0;
   bool whole = false;  ///< in one pass, not in blocks
-  /// For each rank (within a substance, face, edge, corner) its share of the inner vertices, in the
-  /// example and in the result.
-  std::array<double, 4> exampleShares{}, shares{};
+  Shares exampleShares{}, shares{};  ///< of classes of figures, at inner vertices
 };
 
 struct ContinuousResult {
