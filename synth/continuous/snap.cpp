@@ -109,8 +109,9 @@ class Snapping {
     }
     for (std::uint32_t n = 0; n < triangles_.size(); ++n) {
       for (int c = 0; c < 3; ++c) {
-        const auto ends = std::minmax(corner(triangles_[n], c), corner(triangles_[n], c + 1));
-        edges_[ends].push_back(n);
+        const auto [low, high] =
+            std::minmax({corner(triangles_[n], c), corner(triangles_[n], c + 1)});
+        edges_[{low, high}].push_back(n);
       }
     }
   }

@@ -130,7 +130,8 @@ std::vector<ShellEdge> shellEdges(const Solids& solids) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> first;
     for (const ShellTriangle& t : solids.solids[s].triangles) {
       for (int c = 0; c < 3; ++c) {
-        const auto ends = std::minmax(t.corners[c], t.corners[(c + 1) % 3]);
+        const std::pair<std::uint32_t, std::uint32_t> ends =
+            std::minmax({t.corners[c], t.corners[(c + 1) % 3]});
         const auto [known, isNew] = first.emplace(ends, t.plane);
         const std::vector<ExactPlane>& sides = solids.solids[s].sides;
         if (!isNew && sides[known->second].normal != sides[t.plane].normal)

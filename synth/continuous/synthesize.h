@@ -42,7 +42,7 @@ struct ContinuousOptions {
   std::uint64_t seed = 0;
   std::optional<std::int64_t> spacing;  ///< of planes, units; found
   double density = 1;         ///< how full the result is, in shares of the example's, > 0
-  int learning = 6;           ///< rounds in which weights are adapted to the example's shares, >= 0
+  int learning = 8;           ///< rounds in which weights are adapted to the example's shares, >= 0
   std::int64_t budget = 0;  ///< failed choices of an attempt; 0: 1,000 and a tenth of the vertices
   int attempts = 3;         ///< in one pass, before blocks
   int block = 20;           ///< side of a block, spacings

@@ -11,6 +11,8 @@ namespace {
 
 /// What figures that the example's own planes do not show count as.
 constexpr double kUnseen = 0.5;
+/// Shares near this one and below count less when results are compared: they vary by chance.
+constexpr double kSmallShare = 0.005;
 /// Trial results of a round, whose shares are averaged.
 constexpr int kTrials = 2;
 
@@ -64,7 +66,7 @@ double largestFactor(const Shares& shares, const Shares& wanted) {
   double largest = 1;
   for (int c = 0; c < kFigureClasses; ++c) {
     if (wanted[c] <= 0) continue;
-    const double factor = std::max(shares[c], 1e-6) / wanted[c];
+    const double factor = (shares[c] + kSmallShare) / (wanted[c] + kSmallShare);
     largest = std::max({largest, factor, 1 / factor});
   }
   return largest;

@@ -38,10 +38,11 @@ std::vector<FigureClass> classify(const Centrals& centrals, const FigureSet& fig
 Shares sharesOf(std::span<const FigureClass> classes, std::span<const double> counts);
 
 /// The largest factor between two results' shares of a class that both should have; 1 is equal.
+/// Shares below half a percent count less.
 double largestFactor(const Shares& shares, const Shares& wanted);
 
 struct LearnOptions {
-  int rounds = 6;      ///< of trial results, >= 0; 0: weights are the example's counts
+  int rounds = 8;      ///< of trial results, >= 0; 0: weights are the example's counts
   double density = 1;  ///< of all classes but the empty one, in shares of the example's, > 0
 };
 
