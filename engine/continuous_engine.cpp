@@ -33,32 +33,27 @@ const SettingTable<ContinuousSettings>& continuousSettings() {
           "steps",
           {1, 1e6}, "units of the example's grid",
           "the greatest common divisor of the example's distances"),
-      settingRow<O>(
-          "density", [](O & o) -> auto& { return o.options.density; },
-          "how full the result is, in shares of the example's", {1e-3, 1e3}),
+      settingRow<O>("density", [](O & o) -> auto& { return o.options.density; },
+                    "how full the result is, in shares of the example's", {1e-3, 1e3}),
       settingRow<O>(
           "learning", [](O & o) -> auto& { return o.options.learning; },
           "rounds in which the weights of figures are adapted until trial results are as full as "
           "the example",
           {0, 100}),
-      choiceRow<O, Method>("method", &O::method,
-                           "in one pass, in blocks, or in blocks where one pass fails",
-                           {{"auto", Method::Auto},
-                            {"whole", Method::Whole},
-                            {"blocks", Method::Blocks}}),
+      choiceRow<O, Method>(
+          "method", &O::method, "in one pass, in blocks, or in blocks where one pass fails",
+          {{"auto", Method::Auto}, {"whole", Method::Whole}, {"blocks", Method::Blocks}}),
       settingRow<O>(
           "budget", [](O & o) -> auto& { return o.options.budget; },
           "choices that may fail before an attempt ends (0: 1,000 and a tenth of the vertices)",
           {0, 1e12}),
-      settingRow<O>(
-          "attempts", [](O & o) -> auto& { return o.options.attempts; },
-          "attempts at one pass", {1, 1000}),
+      settingRow<O>("attempts", [](O & o) -> auto& { return o.options.attempts; },
+                    "attempts at one pass", {1, 1000}),
       settingRow<O>(
           "block", [](O & o) -> auto& { return o.options.block; }, "side of a block", {4, 1024},
           "spacings"),
-      settingRow<O>(
-          "rounds", [](O & o) -> auto& { return o.options.rounds; },
-          "how often all blocks are made anew", {1, 1000}),
+      settingRow<O>("rounds", [](O & o) -> auto& { return o.options.rounds; },
+                    "how often all blocks are made anew", {1, 1000}),
       {{.key = "thin",
         .type = SettingType::Text,
         .meaning = "MATERIAL=AXIS: a material that is one spacing thick along x, y or z, or across "

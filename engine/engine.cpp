@@ -81,7 +81,7 @@ Result Engine::run(std::span<const Example> examples, const Request& request,
 
 std::span<const Engine* const> engines() {
   static const Engine* const all[] = {&geometryEngine(), &quiltingEngine(), &votingEngine(),
-                                      &blocksEngine(), &modelEngine(),     &continuousEngine()};
+                                      &blocksEngine(),   &modelEngine(),    &continuousEngine()};
   return all;
 }
 

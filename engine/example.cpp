@@ -105,8 +105,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       settingRow<O>("ground", &O::ground,
                     "height below which a mesh has ground that goes on for ever", {}, "world units",
                     "none"),
-      meshUpRow(),
-      normalsRow()};
+      meshUpRow(), normalsRow()};
   static const SettingTable<O> field{
       settingRow<O>("resolution", &O::resolution,
                     "samples along the example's longest side; finer detail is lost", {4, 4096},

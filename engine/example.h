@@ -82,8 +82,8 @@ struct ReadOptions {
   FieldBlocksOptions blocks;         ///< how a distance field is cut
 
   // Polygons only:
-  std::optional<double> unit;    ///< of a mesh's grid, world units, > 0; found
-  double snap = 1e-3;            ///< how far a mesh's vertices may move, lengths of its longest side
+  std::optional<double> unit;  ///< of a mesh's grid, world units, > 0; found
+  double snap = 1e-3;          ///< how far a mesh's vertices may move, lengths of its longest side
   std::optional<double> ground;  ///< world height below which all is ground; none
 };
 
@@ -98,7 +98,7 @@ struct Example {
   std::string description;  ///< for people: "mesh of 23,952 triangles at 64 x 64 x 24 samples"
   /// Distances, truncated at `kExampleHalfWidth` voxels, labels, or faces.
   Representation data;
-  LabelContent content;              ///< of labels
+  LabelContent content;                          ///< of labels
   std::optional<continuous::SolidScene> solids;  ///< of polygons: exactly
   std::optional<TriangleMesh> mesh;  ///< where materials, colors and finer detail come from
   Hints hints;

@@ -102,8 +102,8 @@ std::string settingsPage() {
   text +=
       "\n## Reading an example as distances\n\n" + table(readingSettings(Form::Field).settings());
   text += "\n## Reading an example as labels\n\n" + table(readingSettings(Form::Labels).settings());
-  text += "\n## Reading an example as polygons\n\n" +
-          table(readingSettings(Form::Polygons).settings());
+  text +=
+      "\n## Reading an example as polygons\n\n" + table(readingSettings(Form::Polygons).settings());
   text += "\n## The surface of a result\n\nOf distances:\n\n" +
           table(surfaceSettings(Form::Field).settings()) + "\nOf labels:\n\n" +
           table(surfaceSettings(Form::Labels).settings()) + "\nOf polygons:\n\n" +

@@ -32,7 +32,8 @@ std::string sceneText(const Source& source) {
   return readFile(findScene(source.name()));
 }
 
-/// Whether a .toml is a scene of solids; where it cannot be read, reading it as another one says so.
+/// Whether a .toml is a scene of solids; where it cannot be read, reading it as another one says
+/// so.
 bool isSolids(const Source& source) {
   try {
     return continuous::isSolidScene(sceneText(source));

@@ -92,7 +92,8 @@ BlockCounts modifyInBlocks(const Puzzle& puzzle, std::span<const double> weights
   Vec3l half;
   for (int axis = 0; axis < 3; ++axis) {
     const auto least = static_cast<std::int64_t>(std::ceil(longest[axis]));
-    half[axis] = std::max<std::int64_t>(options.spacing[axis] * ((options.side + 1) / 2), least + 1);
+    half[axis] =
+        std::max<std::int64_t>(options.spacing[axis] * ((options.side + 1) / 2), least + 1);
   }
   BlockCounts counts;
   Search::Marks marks(a.vertices());
@@ -132,9 +133,8 @@ BlockCounts modifyInBlocks(const Puzzle& puzzle, std::span<const double> weights
           Search search(puzzle, weights, labels, marks);
           search.setBacktracking(options.backtracking);
           const std::uint64_t number = static_cast<std::uint64_t>(region) + b;
-          const bool done =
-              search.begin(vertices, region + 1 + static_cast<std::uint32_t>(b)) &&
-              search.run(random.fork(1000 + number), options.budget) == Found::All;
+          const bool done = search.begin(vertices, region + 1 + static_cast<std::uint32_t>(b)) &&
+                            search.run(random.fork(1000 + number), options.budget) == Found::All;
           made[b] = {1, done, search.counts().choices, search.counts().failures};
           if (done) continue;
           for (std::size_t n = 0; n < vertices.size(); ++n) {

@@ -26,9 +26,9 @@ constexpr std::uint32_t kOutside = 0xFFFFFFFF;
 struct ExactSearch::Parts {
   const Puzzle& puzzle;
   std::vector<std::uint32_t> vertices;
-  std::vector<std::uint32_t> place;            // of a vertex in `vertices`
+  std::vector<std::uint32_t> place;              // of a vertex in `vertices`
   std::vector<std::vector<std::size_t>> labels;  // of each of them
-  std::vector<int> first;                      // its first variable; 0 where it has one label
+  std::vector<int> first;                        // its first variable; 0 where it has one label
   std::vector<int> demands;
   std::vector<std::size_t> solution;
   CaDiCaL::Solver solver;

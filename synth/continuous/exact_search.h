@@ -25,8 +25,8 @@ class ExactSearch {
  public:
   /// `domains` are those of `vertices` (ascending), arc consistent with what is around them. Throws
   /// `Cancelled`.
-  ExactSearch(const Puzzle& puzzle, const Domains& domains,
-              std::span<const std::uint32_t> vertices, const Progress& progress = {});
+  ExactSearch(const Puzzle& puzzle, const Domains& domains, std::span<const std::uint32_t> vertices,
+              const Progress& progress = {});
   ~ExactSearch();
   ExactSearch(const ExactSearch&) = delete;
   ExactSearch& operator=(const ExactSearch&) = delete;

@@ -164,9 +164,8 @@ std::vector<ExactPlane> partPlanes(const Solids& solids) {
 
 bool touchesAnyPart(const Solids& solids, const ExactPoint& p) {
   if (solids.ground && p.n.z <= solids.ground->height * p.d) return true;
-  return std::ranges::any_of(solids.solids, [&](const Solid& s) {
-    return !isShell(s) && touches(s, p);
-  });
+  return std::ranges::any_of(solids.solids,
+                             [&](const Solid& s) { return !isShell(s) && touches(s, p); });
 }
 
 /// Throws where a convex part goes on for ever: along one of the lines in which two sides meet.

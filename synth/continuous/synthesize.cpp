@@ -108,8 +108,8 @@ class Synthesis {
     if (result_.outcome != Outcome::Complete) return std::move(result_);
 
     const LabelFilling filling(puzzle, puzzle.domains, example_.ground);
-    result_.statistics.shares = sharesOf(
-        classes_, countsOf(figuresOf(arrangement, filling, figures), figures.size()));
+    result_.statistics.shares =
+        sharesOf(classes_, countsOf(figuresOf(arrangement, filling, figures), figures.size()));
     result_.model = outline(arrangement, filling, progress.part(0.9, 1));
     describe(result_.model, example_, looks_, options_.size);
     result_.statistics.polygons = result_.model.polygons.size();
@@ -208,14 +208,15 @@ class Synthesis {
     constexpr double kPilot = 6000;  // vertices
     const double factor = std::sqrt(kPilot / static_cast<double>(vertices_.size()));
     if (options_.learning == 0 || factor > 0.8) {
-      weights_ = learnWeights(puzzle, consistent, vertices_, classes_, counts_, random, options,
-                              progress);
+      weights_ =
+          learnWeights(puzzle, consistent, vertices_, classes_, counts_, random, options, progress);
       return;
     }
     const Vec3i least = sizeInSpacings(lattice_, example_);
     Vec3i size = options_.size;
     for (int axis = 0; axis < 2; ++axis)
-      size[axis] = std::min(size[axis], std::max(least[axis], static_cast<int>(size[axis] * factor)));
+      size[axis] =
+          std::min(size[axis], std::max(least[axis], static_cast<int>(size[axis] * factor)));
     const PlaneSets planes = planesIn(lattice_, windowOf(lattice_, size));
     const Arrangement small(planes, puzzle.arrangement.centrals(), options_.mostVertices);
     Puzzle pilot = makePuzzle(small, puzzle.figures, example_.ground);
@@ -225,8 +226,8 @@ class Synthesis {
     const std::vector<double> equal(puzzle.figures.size(), 1);
     Search search(pilot, equal, pilot.domains, marks);
     search.begin(vertices, 1);
-    weights_ = learnWeights(pilot, pilot.domains, vertices, classes_, counts_, random, options,
-                            progress);
+    weights_ =
+        learnWeights(pilot, pilot.domains, vertices, classes_, counts_, random, options, progress);
   }
 
   void solve(Puzzle& puzzle, const Domains& open, const std::vector<std::vector<Allowed>>& demands,
@@ -237,9 +238,9 @@ class Synthesis {
     ContinuousStatistics& s = result_.statistics;
     if (!search.begin(vertices_, 1)) return explain(puzzle, open, demands);
     learn(puzzle, puzzle.domains, progress.part(0, 0.4));
-    const std::int64_t budget =
-        options_.budget > 0 ? options_.budget
-                            : 1000 + static_cast<std::int64_t>(vertices_.size()) / 10;
+    const std::int64_t budget = options_.budget > 0
+                                    ? options_.budget
+                                    : 1000 + static_cast<std::int64_t>(vertices_.size()) / 10;
     // `run` sees the weights through a view of the vector that `learn` has replaced.
     Search passes(puzzle, weights_, puzzle.domains, marks);
     passes.begin(vertices_, 2);
@@ -267,11 +268,10 @@ class Synthesis {
       return;
     }
     Domains labels = start_;
-    const BlockCounts counts = modifyInBlocks(puzzle, weights_, labels, random_,
-                                              {.spacing = lattice_.spacing,
-                                               .side = options_.block,
-                                               .rounds = options_.rounds},
-                                              progress.part(0.7, 1));
+    const BlockCounts counts = modifyInBlocks(
+        puzzle, weights_, labels, random_,
+        {.spacing = lattice_.spacing, .side = options_.block, .rounds = options_.rounds},
+        progress.part(0.7, 1));
     puzzle.domains = std::move(labels);
     s.blocks = counts.blocks;
     s.blocksKept = counts.kept;
@@ -366,11 +366,11 @@ class Synthesis {
   const ContinuousOptions& options_;
   PlaneLattice lattice_;
   Random random_;
-  std::vector<double> counts_;            // of figures in the example
-  std::vector<FigureClass> classes_;      // of figures
-  std::vector<std::uint32_t> vertices_;   // inner ones
-  std::vector<double> weights_;           // of figures
-  Domains start_{0, 1};                   // of blocks
+  std::vector<double> counts_;           // of figures in the example
+  std::vector<FigureClass> classes_;     // of figures
+  std::vector<std::uint32_t> vertices_;  // inner ones
+  std::vector<double> weights_;          // of figures
+  Domains start_{0, 1};                  // of blocks
   ContinuousResult result_;
 };
 

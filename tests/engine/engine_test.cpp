@@ -53,9 +53,9 @@ TEST(Engines, AreFoundByNameAndByWhatTheExampleIs) {
   EXPECT_EQ(engineFor(Source::of(rings())).name(), "model");
   EXPECT_EQ(engineFor(Source::of(boxes())).name(), "geometry");
   EXPECT_EQ(engineFor("castle.png").name(), "geometry");
-  EXPECT_THAT(
-      [] { engineNamed("best"); },
-      ThrowsMessage<InputError>(HasSubstr("expected geometry, quilting, voting, blocks, model or continuous")));
+  EXPECT_THAT([] { engineNamed("best"); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("expected geometry, quilting, voting, blocks, model or continuous")));
 }
 
 TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
@@ -289,9 +289,9 @@ TEST(ContinuousEngine, TakesScenesOfSolidsAndClosedMeshes) {
   EXPECT_EQ(engineFor(scene).name(), "continuous");
   const Example cubes = readExample(scene);
   EXPECT_EQ(cubes.form(), Form::Polygons);
-  EXPECT_TRUE(realize(runOn(continuousEngine(), cubes, smallRequest(continuousEngine())),
-                      {&cubes, 1})
-                  .health.closed());
+  EXPECT_TRUE(
+      realize(runOn(continuousEngine(), cubes, smallRequest(continuousEngine())), {&cubes, 1})
+          .health.closed());
   // The same scene as distances, for the other engines.
   EXPECT_EQ(readExample(scene, {.form = Form::Field, .resolution = 16}).form(), Form::Field);
   EXPECT_THAT([] { readExample(Source::of(rings()), {.form = Form::Polygons}); },

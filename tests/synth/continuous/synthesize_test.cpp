@@ -121,8 +121,7 @@ TEST(SynthesizeSolids, EveryFigureOfTheMeshReadBackIsTheExamples) {
       if (mesh.triangles.size() < 20) continue;  // the ground and nothing on it
       const std::filesystem::path obj = scratch(std::string(f.name) + ".obj");
       writeMesh(obj, mesh, {.up = UpAxis::Z});
-      EXPECT_EQ(strangeFigures(obj, solidsOf(f.name), sizeFor(f.name)),
-                std::vector<std::string>{})
+      EXPECT_EQ(strangeFigures(obj, solidsOf(f.name), sizeFor(f.name)), std::vector<std::string>{})
           << f.name << ", seed " << seed;
     }
   }
@@ -293,9 +292,9 @@ TEST(SynthesizeSolids, IsAboutAsFullAsTheExample) {
 TEST(SynthesizeSolids, CancellationIsThrown) {
   std::atomic<bool> cancel = true;
   const Solids solids = solidsOf("cube");
-  EXPECT_THROW(synthesizeSolids(solids, looksOf(solids), {.size = {4, 4, 4}},
-                                Progress({}, &cancel)),
-               Cancelled);
+  EXPECT_THROW(
+      synthesizeSolids(solids, looksOf(solids), {.size = {4, 4, 4}}, Progress({}, &cancel)),
+      Cancelled);
 }
 
 /// A small puzzle: its planes, figures and domains.
@@ -348,8 +347,8 @@ std::int64_t countSolutions(const Small& small, std::size_t at, std::vector<std:
 }
 
 TEST(Search, PropagationKeepsEverySolution) {
-  for (const auto& [name, size] : std::vector<std::pair<std::string, Vec3i>>{
-           {"cube", {1, 1, 1}}, {"cube", {2, 1, 1}}}) {
+  for (const auto& [name, size] :
+       std::vector<std::pair<std::string, Vec3i>>{{"cube", {1, 1, 1}}, {"cube", {2, 1, 1}}}) {
     const Small small(name, size);
     ASSERT_LE(small.vertices.size(), 14u);
     std::vector<std::size_t> labels(small.vertices.size());
