@@ -30,7 +30,8 @@ enum Name : std::uint32_t {
   kLayerClusters = 0x4C594343,  ///< where clusters of neighborhoods begin
   kTextureStart = 0x4C595458,   ///< where a texture's pixels first come from
   // synth/continuous
-  kFigureChoice = 0x46494731,  ///< which figure a vertex takes
+  kFigureChoice = 0x46494731,    ///< which figure a vertex takes
+  kFigureLearning = 0x46494732,  ///< trial results in which weights are learned
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,

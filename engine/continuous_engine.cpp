@@ -35,6 +35,11 @@ const SettingTable<ContinuousSettings>& continuousSettings() {
           "the greatest common divisor of the example's distances"),
       settingRow<O>("density", [](O & o) -> auto& { return o.options.density; },
                     "how full the result is, in shares of the example's", {1e-3, 1e3}),
+      settingRow<O>(
+          "learning", [](O & o) -> auto& { return o.options.learning; },
+          "rounds in which the weights of figures are adapted until trial results are as full as "
+          "the example",
+          {0, 100}),
       choiceRow<O, Method>(
           "method", &O::method, "in one pass, in blocks, or in blocks where one pass fails",
           {{"auto", Method::Auto}, {"whole", Method::Whole}, {"blocks", Method::Blocks}}),
@@ -75,6 +80,11 @@ Vec3l normalNamed(const std::string& text, const std::string& what) {
   return canonical(cast<std::int64_t>(v));
 }
 
+std::string pinText(const Pin& pin) {
+  return "`pin` " + numberText(pin.cell.x) + "," + numberText(pin.cell.y) + "," +
+         numberText(pin.cell.z) + "=" + pin.labels;
+}
+
 ContinuousOptions optionsOf(const Request& request, ContinuousSettings settings,
                             const Solids& solids, const Vec3i& size) {
   ContinuousOptions options = settings.options;
@@ -89,8 +99,7 @@ ContinuousOptions optionsOf(const Request& request, ContinuousSettings settings,
   }
   for (const Pin& pin : request.decided.pins) {
     PlacedSubstance placed{pin.cell, {}};
-    const std::string what = "`pin` " + numberText(pin.cell.x) + "," + numberText(pin.cell.y) +
-                             "," + numberText(pin.cell.z) + "=" + pin.labels;
+    const std::string what = pinText(pin);
     for (int axis = 0; axis < 3; ++axis) {
       if (pin.cell[axis] < 0 || pin.cell[axis] >= size[axis])
         throw InputError(what + ": outside of the result's " + readableSize(size, "spacings"));
@@ -119,10 +128,10 @@ Statistics statisticsOf(const ContinuousStatistics& s, const Vec3i& size) {
                  {"blocks", s.blocks},
                  {"blocks_kept", s.blocksKept},
                  {"exact_solver_calls", s.exact}};
-  const char* ranks[] = {"within", "face", "edge", "corner"};
-  for (int rank = 0; rank < 4; ++rank) {
-    all.emplace_back(std::string("example_share_") + ranks[rank], s.exampleShares[rank]);
-    all.emplace_back(std::string("share_") + ranks[rank], s.shares[rank]);
+  for (int c = 0; c < kFigureClasses; ++c) {
+    const std::string name = figureClassName(static_cast<FigureClass>(c));
+    all.emplace_back("example_share_" + name, s.exampleShares[c]);
+    all.emplace_back("share_" + name, s.shares[c]);
   }
   return all;
 }
@@ -165,8 +174,13 @@ class ContinuousEngine final : public Engine {
     result.outcome = made.outcome;
     result.why = made.why;
     result.statistics = statisticsOf(made.statistics, options.size);
-    if (made.outcome == Outcome::Impossible)
-      result.conflict = Conflict{made.why, made.conflict, {}};
+    if (made.outcome == Outcome::Impossible) {
+      for (const int pin : made.conflict) {
+        const Pin& p = request.decided.pins[static_cast<std::size_t>(pin)];
+        result.why += (pin == made.conflict.front() ? ": " : " and ") + pinText(p);
+      }
+      result.conflict = Conflict{result.why, made.conflict, {}};
+    }
     if (made.outcome != Outcome::Complete) return result;
     const ContinuousStatistics& s = made.statistics;
     result.notes.emplace_back("method", s.whole ? "in one pass" : "in blocks");

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/progress.h"
@@ -17,6 +19,11 @@ void readAsField(Example& example, const Progress& progress);
 void readAsLabels(Example& example, const Progress& progress);
 void readAsPolygons(Example& example, const Progress& progress);
 void readAsMap(Example& example, const Progress& progress);
+/// Gives the faces of a result the material and texture coordinates of a face of the example's mesh
+/// that has the same substance and looks the same way: its origin, of which that with most area
+/// counts. `faces` says which polygon each triangle is a part of.
+void paintFaces(const continuous::PolygonModel& model, const Example& example,
+                std::span<const std::uint32_t> faces, TriangleMesh& mesh);
 
 /// The scene of a file or its bytes.
 Scene readSceneOf(const Source& source, const ReadOptions& options, const Progress& progress);

@@ -93,9 +93,9 @@ void sampleHeights(Example& example, const Progress& progress) {
 }
 
 void takeVolume(Example& example, const Progress& progress) {
-  example.data = readDistances(example.source,
-                               {.grid = example.reading.grid, .warnings = &example.warnings},
-                               &example.continues, progress);
+  example.data =
+      readDistances(example.source, {.grid = example.reading.grid, .warnings = &example.warnings},
+                    &example.continues, progress);
   example.hints.scale = {2, 2, 2};
   example.description = "volume";
   if (example.continues.any())

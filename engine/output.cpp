@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "engine/words.h"
+#include "mesh/face_outlines.h"
 #include "mesh/gif.h"
 #include "mesh/image.h"
 #include "sdf/height_map.h"
@@ -114,13 +115,14 @@ Written writeField(const fs::path& path, const Result& result, const Example& ex
 }
 
 /// Triangles as a file of meshes.
-Written writeTriangles(const fs::path& path, const TriangleMesh& mesh, const MeshHealth& health,
+Written writeTriangles(const fs::path& path, const TriangleMesh& mesh,
+                       std::span<const std::uint32_t> faces, const MeshHealth& health,
                        const char* label, const MeshFileOptions& options,
                        const Progress& progress) {
   Written written{label, path.string() + ": " + readableHealth(health), {}};
   MeshFileOptions file = options;
   file.warnings = &written.warnings;
-  writeMesh(path, mesh, file, progress);
+  writePolygons(path, mesh, faces, file, progress);
   return written;
 }
 
@@ -172,7 +174,7 @@ Written writeResult(const fs::path& path, const Result& result, std::span<const 
   const Example& example = examples.front();
   progress.report("writing " + path.string(), 0);
   if (surface && needsSurface(path, result, options)) {
-    return writeTriangles(path, surface->mesh, surface->health,
+    return writeTriangles(path, surface->mesh, surface->faces, surface->health,
                           result.form() == Form::Labels ? "written" : "mesh", options.mesh,
                           progress);
   }
@@ -196,7 +198,7 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
   if (isMeshFile(path)) {
     const TriangleMesh mesh = realizeLabels(grid, example, progress.part(0, 0.6));
     const MeshHealth health = meshHealth(mesh, progress.part(0.6, 0.8));
-    return writeTriangles(path, mesh, health, "written", options.mesh, progress.part(0.8, 1));
+    return writeTriangles(path, mesh, {}, health, "written", options.mesh, progress.part(0.8, 1));
   }
   if (const auto* labeled = std::get_if<LabeledField>(&example.content);
       labeled && endsWith(path, ".vdb")) {

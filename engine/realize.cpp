@@ -33,7 +33,7 @@ Surface copied(const Result& result, std::span<const Example> examples, const Pr
   const Example& example = examples.front();
   CopiedTriangles made =
       copyTriangles(result.field(), result.origins, *example.mesh, example.field(), {}, progress);
-  return {std::move(made.mesh), made.health, 0};
+  return {std::move(made.mesh), made.health, 0, {}};
 }
 
 Surface contoured(const Result& result, std::span<const Example> examples,
@@ -46,7 +46,7 @@ Surface contoured(const Result& result, std::span<const Example> examples,
   options.triangles = surface.triangles;
   Reconstruction made =
       reconstructSurface(result.field(), result.origins, views, options, progress);
-  return {std::move(made.mesh), made.health, made.contoured};
+  return {std::move(made.mesh), made.health, made.contoured, {}};
 }
 
 TriangleMesh boxesOf(const LabelGrid& grid, bool closedLabels, const std::string& what,
@@ -120,8 +120,10 @@ Surface realize(const Result& result, std::span<const Example> examples,
   if (result.form() == Form::Polygons) {
     surface.mesh = continuous::triangulate(
         result.polygons(), options.shells ? continuous::Faces::Shells : continuous::Faces::Seen,
-        nullptr, progress.part(0, 0.8));
+        &surface.faces, progress.part(0, 0.8));
     if (surface.mesh.triangles.empty()) throw InputError("the result is empty");
+    if (!options.shells)
+      paintFaces(result.polygons(), examples.front(), surface.faces, surface.mesh);
     surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
     return surface;
   }

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/progress.h"
 #include "engine/example.h"
@@ -39,6 +41,8 @@ struct Surface {
   TriangleMesh mesh;
   MeshHealth health;
   std::int64_t contoured = 0;  ///< triangles of a contour before they were merged
+  /// Of a result of polygons: which face each triangle is a part of.
+  std::vector<std::uint32_t> faces;
 };
 
 /// A complete result as triangles with the examples' materials: of a field its contour, or the

@@ -12,6 +12,7 @@
 #include "core/file.h"
 #include "core/text.h"
 #include "mesh/color.h"
+#include "mesh/face_outlines.h"
 #include "mesh/mesh_formats.h"
 
 namespace exemplar {
@@ -118,6 +119,12 @@ TriangleMesh readMesh(std::string_view bytes, const std::string& name,
 
 void writeMesh(const fs::path& path, const TriangleMesh& mesh, const MeshFileOptions& options,
                const Progress& progress) {
+  writePolygons(path, mesh, {}, options, progress);
+}
+
+void writePolygons(const fs::path& path, const TriangleMesh& mesh,
+                   std::span<const std::uint32_t> faces, const MeshFileOptions& options,
+                   const Progress& progress) {
   const Format format = formatOf(path);
   if (format == Format::None) failAtEnding(path);
   validate(mesh, path.string());
@@ -133,16 +140,17 @@ void writeMesh(const fs::path& path, const TriangleMesh& mesh, const MeshFileOpt
              ".glb to keep them");
   }
   if (format != Format::Obj) {
-    out.write(format == Format::Ply   ? formatPly(mesh, yUp, options.normals, formatting)
+    out.write(format == Format::Ply   ? formatPly(mesh, yUp, options.normals, formatting, faces)
               : format == Format::Stl ? formatStl(mesh, yUp, formatting)
-              : format == Format::Off ? formatOff(mesh, yUp, formatting)
+              : format == Format::Off ? formatOff(mesh, yUp, formatting, faces)
               : format == Format::Glb ? formatGlb(mesh, yUp, options.normals, formatting)
                                       : formatGltf(mesh, yUp, options.normals, formatting),
               writing);
     out.commit();
     return;
   }
-  const ObjFiles files = formatObj(mesh, path.stem().string(), yUp, options.normals, formatting);
+  const ObjFiles files =
+      formatObj(mesh, path.stem().string(), yUp, options.normals, formatting, faces);
   out.write(files.obj, writing);
   // All are written before the first is put in its place, and the .obj comes last: when it is
   // there, so is what it names.

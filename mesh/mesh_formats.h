@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,9 @@ struct MeshSource {
   void warn(const std::string& what) const { exemplar::warn(warnings, name + ": " + what); }
 };
 
+/// Which triangles are parts of one flat polygon (`faceOutlines`); none: each is a face.
+using FaceNumbers = std::span<const std::uint32_t>;
+
 // Each format in memory. Every parser throws `InputError` for what is malformed and never reads
 // outside of `bytes`; what is only unusual, or cannot be kept, is a warning. Parsers leave
 // coordinates as they are in the file; formatters turn z up into y up where `yUp` says so. What a
@@ -58,11 +62,13 @@ struct ObjFiles {
   std::vector<NamedBytes> siblings;
 };
 ObjFiles formatObj(const TriangleMesh& mesh, const std::string& stem, bool yUp,
-                   MeshNormals normals = MeshNormals::Crease, const Progress& progress = {});
+                   MeshNormals normals = MeshNormals::Crease, const Progress& progress = {},
+                   FaceNumbers faces = {});
 std::string formatPly(const TriangleMesh& mesh, bool yUp, MeshNormals normals = MeshNormals::Crease,
-                      const Progress& progress = {});
+                      const Progress& progress = {}, FaceNumbers faces = {});
 std::string formatStl(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
-std::string formatOff(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
+std::string formatOff(const TriangleMesh& mesh, bool yUp, const Progress& progress = {},
+                      FaceNumbers faces = {});
 std::string formatGlb(const TriangleMesh& mesh, bool yUp, MeshNormals normals = MeshNormals::Crease,
                       const Progress& progress = {});
 /// A plain `.gltf`, its buffer embedded.

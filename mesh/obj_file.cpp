@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <set>
 #include <unordered_map>
 
@@ -12,6 +13,7 @@
 #include "core/text.h"
 #include "core/text_scanner.h"
 #include "mesh/color.h"
+#include "mesh/face_outlines.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/mtl.h"
 #include "mesh/polygon.h"
@@ -522,7 +524,7 @@ TriangleMesh parseObj(std::string_view bytes, const MeshSource& source) {
 }
 
 ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool yUp,
-                   MeshNormals wanted, const Progress& progress) {
+                   MeshNormals wanted, const Progress& progress, FaceNumbers numbers) {
   // What is named in a line must not break it, and what starts with '-' would be an option.
   std::string stem = fileStem;
   for (char& c : stem) {
@@ -547,14 +549,16 @@ ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool y
   const auto uvIndices = appendUvs(out, mesh, progress.part(0.4, 0.5));
   appendNormals(out, normals, yUp);
   std::uint32_t material = kNone;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    reportNowAndThen(triangles, "writing triangles", t, mesh.triangles.size());
-    if (mesh.hasMaterials() && mesh.triangleMaterials[t] != material) {
-      material = mesh.triangleMaterials[t];
+  const auto faces = faceOutlines(mesh, numbers, std::numeric_limits<std::size_t>::max());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    reportNowAndThen(triangles, "writing triangles", f, faces.size());
+    const std::uint32_t first = faces[f][0].triangle;
+    if (mesh.hasMaterials() && mesh.triangleMaterials[first] != material) {
+      material = mesh.triangleMaterials[first];
       out += "usemtl " + materials[material].material.name + "\n";
     }
     out += 'f';
-    for (int c = 0; c < 3; ++c) {
+    for (const auto& [t, c] : faces[f]) {
       out += ' ';
       appendNumber(out, mesh.triangles[t][c] + 1);
       if (mesh.hasUvs()) {

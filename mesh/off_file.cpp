@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text_scanner.h"
+#include "mesh/face_outlines.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/polygon.h"
 
@@ -281,12 +282,14 @@ TriangleMesh parseOff(std::string_view bytes, const MeshSource& source) {
   return OffReader(bytes, source).read();
 }
 
-std::string formatOff(const TriangleMesh& mesh, bool yUp, const Progress& progress) {
+std::string formatOff(const TriangleMesh& mesh, bool yUp, const Progress& progress,
+                      FaceNumbers numbers) {
+  const auto faces = faceOutlines(mesh, numbers, std::numeric_limits<std::size_t>::max());
   const Progress vertices = progress.part(0, 0.4), triangles = progress.part(0.4, 1);
   std::string out = mesh.hasColors() ? "COFF\n" : "OFF\n";
   out.reserve(out.size() + mesh.positions.size() * 70 + mesh.triangles.size() * 26);
   appendNumber(out, static_cast<std::uint32_t>(mesh.positions.size()));
-  out += ' ' + std::to_string(mesh.triangles.size()) + " 0\n";
+  out += ' ' + std::to_string(faces.size()) + " 0\n";
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     reportNowAndThen(vertices, "writing vertices", v, mesh.positions.size());
     const Vec3d p = toFileAxes(mesh.positions[v], yUp);
@@ -298,14 +301,17 @@ std::string formatOff(const TriangleMesh& mesh, bool yUp, const Progress& progre
     if (mesh.hasColors()) appendColor(out, mesh.colors[v]);
     out += '\n';
   }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    reportNowAndThen(triangles, "writing triangles", t, mesh.triangles.size());
-    out += '3';
-    for (const std::uint32_t v : mesh.triangles[t]) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    reportNowAndThen(triangles, "writing triangles", f, faces.size());
+    appendNumber(out, static_cast<std::uint32_t>(faces[f].size()));
+    for (const TriangleCorner& c : faces[f]) {
       out += ' ';
-      appendNumber(out, v);
+      appendNumber(out, mesh.triangles[c.triangle][c.corner]);
     }
-    if (mesh.hasMaterials()) appendColor(out, mesh.materials[mesh.triangleMaterials[t]].baseColor);
+    if (mesh.hasMaterials()) {
+      const std::uint32_t material = mesh.triangleMaterials[faces[f][0].triangle];
+      appendColor(out, mesh.materials[material].baseColor);
+    }
     out += '\n';
   }
   return out;

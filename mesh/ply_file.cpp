@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <map>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "core/text_scanner.h"
+#include "mesh/face_outlines.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/polygon.h"
 
@@ -669,7 +671,8 @@ void appendLittle(std::string& out, T value) {
   out.append(raw.data(), raw.size());
 }
 
-std::string headerOf(const TriangleMesh& mesh, const SplitVertices& split, bool asDouble) {
+std::string headerOf(const TriangleMesh& mesh, const SplitVertices& split, std::size_t faces,
+                     bool asDouble) {
   const std::string vertices = std::to_string(split.source.size());
   std::string out = "ply\nformat binary_little_endian 1.0\ncomment written by exemplar\n";
   if (mesh.hasMaterials()) {
@@ -687,7 +690,7 @@ std::string headerOf(const TriangleMesh& mesh, const SplitVertices& split, bool 
   const char* colors =
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
   if (mesh.hasColors()) out += colors;
-  out += "element face " + std::to_string(mesh.triangles.size()) + "\n";
+  out += "element face " + std::to_string(faces) + "\n";
   // Signed indices are what more readers know.
   out += split.source.size() <= 0x7fffffff ? "property list uchar int vertex_indices\n"
                                            : "property list uchar uint vertex_indices\n";
@@ -715,7 +718,9 @@ TriangleMesh parsePly(std::string_view bytes, const MeshSource& source) {
 }
 
 std::string formatPly(const TriangleMesh& mesh, bool yUp, MeshNormals normals,
-                      const Progress& progress) {
+                      const Progress& progress, FaceNumbers numbers) {
+  constexpr std::size_t kMostCornersOfFace = 127;  // two texture coordinates each, in a byte
+  const auto faces = faceOutlines(mesh, numbers, kMostCornersOfFace);
   const Progress vertices = progress.part(0.3, 0.5), triangles = progress.part(0.5, 1);
   const SplitVertices split =
       splitVertices(mesh, shadingNormals(mesh, normals, progress.part(0, 0.3)),
@@ -724,7 +729,7 @@ std::string formatPly(const TriangleMesh& mesh, bool yUp, MeshNormals normals,
   const bool asDouble =
       !std::all_of(mesh.positions.begin(), mesh.positions.end(),
                    [&](const Vec3d& p) { return isFloat(p.x) && isFloat(p.y) && isFloat(p.z); });
-  std::string out = headerOf(mesh, split, asDouble);
+  std::string out = headerOf(mesh, split, faces.size(), asDouble);
   out.reserve(out.size() + split.source.size() * 40 +
               mesh.triangles.size() * (mesh.hasUvs() ? 46 : 21));
   const auto appendColor = [&](const std::array<float, 4>& color) {
@@ -747,20 +752,21 @@ std::string formatPly(const TriangleMesh& mesh, bool yUp, MeshNormals normals,
     }
     if (mesh.hasColors()) appendColor(mesh.colors[v]);
   }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    reportNowAndThen(triangles, "writing triangles", t, mesh.triangles.size());
-    out += '\3';
-    for (const std::uint32_t v : split.triangles[t]) appendLittle(out, v);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    reportNowAndThen(triangles, "writing triangles", f, faces.size());
+    out += static_cast<char>(faces[f].size());
+    for (const auto& [t, c] : faces[f]) appendLittle(out, split.triangles[t][c]);
     if (mesh.hasUvs()) {
-      out += '\6';
-      for (const Vec2f& uv : mesh.uvs[t]) {
-        appendLittle(out, uv.x);
-        appendLittle(out, uv.y);
+      out += static_cast<char>(2 * faces[f].size());
+      for (const auto& [t, c] : faces[f]) {
+        appendLittle(out, mesh.uvs[t][c].x);
+        appendLittle(out, mesh.uvs[t][c].y);
       }
     }
     if (mesh.hasMaterials()) {
-      appendColor(mesh.materials[mesh.triangleMaterials[t]].baseColor);
-      appendLittle(out, mesh.triangleMaterials[t]);
+      const std::uint32_t material = mesh.triangleMaterials[faces[f][0].triangle];
+      appendColor(mesh.materials[material].baseColor);
+      appendLittle(out, material);
     }
   }
   if (mesh.hasMaterials()) {

@@ -40,7 +40,8 @@ class Finder {
     for (int i = 0; i < m; ++i) {
       for (int j = i + 1; j < m; ++j) {
         for (int k = j + 1; k < m; ++k) {
-          if (determinant(planes_.normals[i], planes_.normals[j], planes_.normals[k]) == 0) continue;
+          if (determinant(planes_.normals[i], planes_.normals[j], planes_.normals[k]) == 0)
+            continue;
           for (std::size_t plane = 0; plane < planes_.offsets[i].size(); ++plane)
             all.push_back({i, j, k, plane});
         }
@@ -172,8 +173,7 @@ void Arrangement::findPoints(std::size_t mostVertices, const Progress& progress)
   first_.reserve(all.size() + 1);
   first_.push_back(0);
   for (const Found& vertex : all) {
-    const auto [entry, isNew] =
-        kinds.emplace(vertex.on, static_cast<std::uint32_t>(kinds_.size()));
+    const auto [entry, isNew] = kinds.emplace(vertex.on, static_cast<std::uint32_t>(kinds_.size()));
     if (isNew) kinds_.push_back(&centrals_->of(vertex.on));
     bool inside = true;
     for (int axis = 0; axis < 3; ++axis) {

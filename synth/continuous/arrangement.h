@@ -21,9 +21,9 @@ struct EdgeEnd {
   std::uint32_t ray = 0;  ///< of that vertex, back along the edge
 };
 
-/// All vertices of planes in a box, with its sides. Vertices are in lexicographic order of position,
-/// rays in the order of `Central::rays`. Every line through a vertex goes on to another one, except
-/// out of the box.
+/// All vertices of planes in a box, with its sides. Vertices are in lexicographic order of
+/// position, rays in the order of `Central::rays`. Every line through a vertex goes on to another
+/// one, except out of the box.
 class Arrangement {
  public:
   /// Throws `InputError` where there would be more than `mostVertices`, and `Cancelled`. Time is

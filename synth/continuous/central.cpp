@@ -60,8 +60,8 @@ void findRays(const std::vector<Vec3l>& normals, const std::vector<int>& members
   std::ranges::sort(directions, [](const Vec3l& a, const Vec3l& b) { return before(a, b); });
   directions.erase(std::unique(directions.begin(), directions.end()), directions.end());
   for (const Vec3l& d : directions) {
-    made.rays.push_back({d, containing(normals, made.families, d),
-                         aboveOf(normals, made.families, d), 0, {}});
+    made.rays.push_back(
+        {d, containing(normals, made.families, d), aboveOf(normals, made.families, d), 0, {}});
   }
   for (Central::Ray& ray : made.rays) ray.opposite = made.ray(-ray.direction);
 }
@@ -114,9 +114,9 @@ std::uint32_t Central::cell(Families above) const {
 }
 
 std::uint32_t Central::ray(const Vec3l& direction) const {
-  const auto found = std::lower_bound(
-      rays.begin(), rays.end(), direction,
-      [](const Ray& ray, const Vec3l& d) { return before(ray.direction, d); });
+  const auto found =
+      std::lower_bound(rays.begin(), rays.end(), direction,
+                       [](const Ray& ray, const Vec3l& d) { return before(ray.direction, d); });
   if (found == rays.end() || found->direction != direction)
     throw std::logic_error("Central::ray: no such direction");
   return static_cast<std::uint32_t>(found - rays.begin());

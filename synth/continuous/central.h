@@ -22,17 +22,17 @@ using Families = std::uint32_t;
 /// the positive side; a ray is also on some.
 struct Central {
   struct Ray {
-    Vec3l direction;      ///< primitive
-    Families on = 0;      ///< whose planes contain it
-    Families above = 0;   ///< on whose positive side it is; below all that are left
-    std::uint32_t opposite = 0;          ///< the index of the opposite ray
+    Vec3l direction;                    ///< primitive
+    Families on = 0;                    ///< whose planes contain it
+    Families above = 0;                 ///< on whose positive side it is; below all that are left
+    std::uint32_t opposite = 0;         ///< the index of the opposite ray
     std::vector<std::uint32_t> around;  ///< cells around it, ordered by the families `on`
   };
 
   Families families = 0;
-  int rank = 0;                   ///< of the normals, 0..3
-  std::vector<Families> cells;    ///< each: the families it is above of; ascending
-  std::vector<Ray> rays;          ///< for rank 3, ordered by direction; else none
+  int rank = 0;                 ///< of the normals, 0..3
+  std::vector<Families> cells;  ///< each: the families it is above of; ascending
+  std::vector<Ray> rays;        ///< for rank 3, ordered by direction; else none
   /// For rank 3: rays of each cell's border. Any sum of them with positive weights is inside it.
   std::vector<std::vector<std::uint32_t>> raysOfCell;
 

@@ -24,8 +24,8 @@ namespace exemplar::continuous {
 using Vec3l = Vec3<std::int64_t>;
 __extension__ typedef __int128 Wide;
 
-inline constexpr int kMostNormal = 64;                          ///< of a normal's components
-inline constexpr std::int64_t kMostCoordinate = 1 << 17;        ///< of points, units of the grid
+inline constexpr int kMostNormal = 64;                           ///< of a normal's components
+inline constexpr std::int64_t kMostCoordinate = 1 << 17;         ///< of points, units of the grid
 inline constexpr std::int64_t kMostDenominator = (1 << 21) - 1;  ///< of points
 inline constexpr int kMostFamilies = 32;  ///< directions of planes, so that a set of them is a word
 

@@ -63,8 +63,8 @@ void closeUnderRestriction(const Centrals& centrals, FigureSet& figures);
 FigureSet extractFigures(const Solids& solids, const Centrals& centrals,
                          const Progress& progress = {});
 
-/// The figure at a point through which planes of three directions go; nothing at other points, whose
-/// figures are restrictions of those. `planes` are those of the solids, sorted.
+/// The figure at a point through which planes of three directions go; nothing at other points,
+/// whose figures are restrictions of those. `planes` are those of the solids, sorted.
 std::optional<Figure> figureAt(const Solids& solids, const Centrals& centrals,
                                std::span<const ExactPlane> planes, const ExactPoint& point);
 

@@ -63,8 +63,8 @@ LabelFilling::LabelFilling(const Puzzle& puzzle, const Domains& solved,
       cells_[v] = puzzle.classOf(v).cells(label).data();
       continue;
     }
-    std::vector<Substance> table = expanded(
-        a.centrals(), backgroundAt(a.centrals(), ground, a.point(v)), central.families);
+    std::vector<Substance> table =
+        expanded(a.centrals(), backgroundAt(a.centrals(), ground, a.point(v)), central.families);
     const Within within = withinBox(a, a.point(v));
     for (std::size_t c = 0; c < table.size(); ++c)
       if (!within.contains(central.cells[c])) table[c] = kAir;

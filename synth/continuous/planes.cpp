@@ -74,8 +74,8 @@ Vec3i sizeInSpacings(const PlaneLattice& lattice, const Solids& solids) {
   Vec3i size;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int64_t length = box.high[axis] - lattice.origin[axis];
-    size[axis] = static_cast<int>(
-        std::max<std::int64_t>(1, -floorDivide(-length, lattice.spacing[axis])));
+    size[axis] =
+        static_cast<int>(std::max<std::int64_t>(1, -floorDivide(-length, lattice.spacing[axis])));
   }
   return size;
 }

@@ -79,8 +79,7 @@ class Outliner {
  public:
   Outliner(const Arrangement& arrangement, const Filling& filling)
       : a_(arrangement), filling_(filling) {
-    for (const Central* central : a_.kinds())
-      rays_.emplace_back(*central, a_.planes().normals);
+    for (const Central* central : a_.kinds()) rays_.emplace_back(*central, a_.planes().normals);
   }
 
   PolygonModel run(const Progress& progress) {
@@ -240,14 +239,14 @@ class Outliner {
 
   const Arrangement& a_;
   const Filling& filling_;
-  std::vector<PlaneRays> rays_;              // by kind
-  std::vector<std::uint32_t> base_;          // the first sector of a vertex on a face
+  std::vector<PlaneRays> rays_;      // by kind
+  std::vector<std::uint32_t> base_;  // the first sector of a vertex on a face
   std::vector<std::uint32_t> faceVertices_;
-  DisjointSets regions_;                     // of sectors
-  std::vector<std::uint8_t> walked_;         // along the ray of a sector
-  std::vector<std::uint8_t> corner_;         // 0 not known, 1 no, 2 yes
+  DisjointSets regions_;              // of sectors
+  std::vector<std::uint8_t> walked_;  // along the ray of a sector
+  std::vector<std::uint8_t> corner_;  // 0 not known, 1 no, 2 yes
   std::unordered_map<const Substance*, bool> cornerOf_;
-  std::vector<std::uint32_t> point_;         // of the model
+  std::vector<std::uint32_t> point_;           // of the model
   std::map<std::uint32_t, Polygon> polygons_;  // by region
   PolygonModel model_;
 };

@@ -133,8 +133,7 @@ bool Search::narrow(std::uint32_t v, std::uint32_t ray, const Word* edges) {
   for (int e = 0; e < along.edges; e += 64) {
     for (Word rest = edges[e / 64]; rest != 0; rest &= rest - 1) {
       const Word* mask =
-          along.labelsWith.data() +
-          static_cast<std::size_t>(e + std::countr_zero(rest)) * words;
+          along.labelsWith.data() + static_cast<std::size_t>(e + std::countr_zero(rest)) * words;
       for (std::size_t w = 0; w < words; ++w) kept[w] |= mask[w];
     }
   }

@@ -76,8 +76,7 @@ class Search {
  public:
   /// Marks that searches on the same domains share.
   struct Marks {
-    explicit Marks(std::size_t vertices)
-        : region(vertices), saved(vertices), queued(vertices) {}
+    explicit Marks(std::size_t vertices) : region(vertices), saved(vertices), queued(vertices) {}
     std::vector<std::uint32_t> region, saved;
     std::vector<std::uint8_t> queued;
   };

@@ -109,8 +109,9 @@ class Snapping {
     }
     for (std::uint32_t n = 0; n < triangles_.size(); ++n) {
       for (int c = 0; c < 3; ++c) {
-        const auto ends = std::minmax(corner(triangles_[n], c), corner(triangles_[n], c + 1));
-        edges_[ends].push_back(n);
+        const auto [low, high] =
+            std::minmax({corner(triangles_[n], c), corner(triangles_[n], c + 1)});
+        edges_[{low, high}].push_back(n);
       }
     }
   }
@@ -242,8 +243,8 @@ class Snapping {
       const double level = std::abs(patch.level);
       const double precision = kPrecision * longest_ * length(cast<double>(patch.normal));
       if (level <= precision) continue;
-      unit = unit == 0 ? level : commonMeasure(std::max(unit, level), std::min(unit, level),
-                                               4 * precision);
+      unit = unit == 0 ? level
+                       : commonMeasure(std::max(unit, level), std::min(unit, level), 4 * precision);
     }
     if (unit == 0) unit = longest_;
     if (unit < kFinestUnit * longest_) {
@@ -325,9 +326,9 @@ class Snapping {
         for (std::size_t c = 0; c < b; ++c) {
           const Vec3l &na = patches_[patches[a]].normal, &nb = patches_[patches[b]].normal,
                       &nc = patches_[patches[c]].normal;
-          const double volume = std::abs(dot(normalized(cast<double>(na)),
-                                             cross(normalized(cast<double>(nb)),
-                                                   normalized(cast<double>(nc)))));
+          const double volume =
+              std::abs(dot(normalized(cast<double>(na)),
+                           cross(normalized(cast<double>(nb)), normalized(cast<double>(nc)))));
           if (determinant(na, nb, nc) == 0 || volume <= most) continue;
           most = volume;
           best = {patches[a], patches[b], patches[c]};
@@ -348,7 +349,8 @@ class Snapping {
     std::uint32_t second = patches[0];
     for (const std::uint32_t patch : patches) {
       const Vec3d n = cast<double>(patches_[patch].normal);
-      if (length(cross(a, n)) / length(n) <= length(cross(a, b)) / std::max(length(b), 1.0)) continue;
+      if (length(cross(a, n)) / length(n) <= length(cross(a, b)) / std::max(length(b), 1.0))
+        continue;
       b = n;
       second = patch;
     }
@@ -396,24 +398,23 @@ class Snapping {
       if (made_.substances.size() > 200)
         throw InputError("the mesh has solids of more than 200 materials");
       made_.solids.push_back({static_cast<Substance>(made_.substances.size()), {}, {}});
-      made_.substances.push_back(material < mesh_.materials.size()
-                                     ? mesh_.materials[material].name
-                                     : std::string("solid"));
+      made_.substances.push_back(material < mesh_.materials.size() ? mesh_.materials[material].name
+                                                                   : std::string("solid"));
     }
     std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> sideOf;
     std::vector<double> volume(made_.solids.size());
     for (std::uint32_t n = 0; n < triangles_.size(); ++n) {
       const std::size_t s = solidOf[partOf[n]];
       Solid& solid = made_.solids[s];
-      const auto [side, isNew] = sideOf.emplace(
-          std::pair(s, patchOf_[n]), static_cast<std::uint32_t>(solid.sides.size()));
+      const auto [side, isNew] =
+          sideOf.emplace(std::pair(s, patchOf_[n]), static_cast<std::uint32_t>(solid.sides.size()));
       if (isNew) solid.sides.push_back(planeOf(patchOf_[n]));
       const std::uint32_t t = triangles_[n];
       ShellTriangle triangle{{}, side->second, t};
       for (int c = 0; c < 3; ++c) triangle.corners[c] = nearIndex_[corner(t, c)];
-      volume[s] += dot(made_.nearPoints[triangle.corners[0]],
-                       cross(made_.nearPoints[triangle.corners[1]],
-                             made_.nearPoints[triangle.corners[2]]));
+      volume[s] +=
+          dot(made_.nearPoints[triangle.corners[0]],
+              cross(made_.nearPoints[triangle.corners[1]], made_.nearPoints[triangle.corners[2]]));
       solid.triangles.push_back(triangle);
     }
     for (std::size_t s = 0; s < made_.solids.size(); ++s)
@@ -422,8 +423,8 @@ class Snapping {
   }
 
   void turnOutside(Solid& solid) {
-    warn(options_.warnings, "faces of " + made_.substances[solid.substance] +
-                                " point inward; turned around");
+    warn(options_.warnings,
+         "faces of " + made_.substances[solid.substance] + " point inward; turned around");
     for (ExactPlane& side : solid.sides) side = {-side.normal, -side.offset};
     for (ShellTriangle& triangle : solid.triangles)
       std::swap(triangle.corners[1], triangle.corners[2]);

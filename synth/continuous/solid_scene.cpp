@@ -225,7 +225,8 @@ class Reader {
     if (normal == Vec3l{}) fail(node, "a plane's normal is 0");
     const std::int64_t g = gcd(normal);
     const Vec3l n = normal / g;
-    if (offset % g != 0) fail(node, "a plane's numbers have no whole offset; choose a smaller unit");
+    if (offset % g != 0)
+      fail(node, "a plane's numbers have no whole offset; choose a smaller unit");
     for (int axis = 0; axis < 3; ++axis)
       if (std::abs(n[axis]) > kMostNormal) fail(node, "a plane's normal is above 64");
     return {n, offset / g};

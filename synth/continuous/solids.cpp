@@ -130,7 +130,8 @@ std::vector<ShellEdge> shellEdges(const Solids& solids) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> first;
     for (const ShellTriangle& t : solids.solids[s].triangles) {
       for (int c = 0; c < 3; ++c) {
-        const auto ends = std::minmax(t.corners[c], t.corners[(c + 1) % 3]);
+        const std::pair<std::uint32_t, std::uint32_t> ends =
+            std::minmax({t.corners[c], t.corners[(c + 1) % 3]});
         const auto [known, isNew] = first.emplace(ends, t.plane);
         const std::vector<ExactPlane>& sides = solids.solids[s].sides;
         if (!isNew && sides[known->second].normal != sides[t.plane].normal)
@@ -163,9 +164,8 @@ std::vector<ExactPlane> partPlanes(const Solids& solids) {
 
 bool touchesAnyPart(const Solids& solids, const ExactPoint& p) {
   if (solids.ground && p.n.z <= solids.ground->height * p.d) return true;
-  return std::ranges::any_of(solids.solids, [&](const Solid& s) {
-    return !isShell(s) && touches(s, p);
-  });
+  return std::ranges::any_of(solids.solids,
+                             [&](const Solid& s) { return !isShell(s) && touches(s, p); });
 }
 
 /// Throws where a convex part goes on for ever: along one of the lines in which two sides meet.

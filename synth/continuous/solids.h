@@ -31,7 +31,7 @@ struct ShellTriangle {
 /// shell of triangles, the points around which it winds.
 struct Solid {
   Substance substance = 1;
-  std::vector<ExactPlane> sides;        ///< outward: normal . x <= offset is inside
+  std::vector<ExactPlane> sides;         ///< outward: normal . x <= offset is inside
   std::vector<ShellTriangle> triangles;  ///< of a shell; none for a convex part
 };
 
@@ -45,7 +45,7 @@ struct Ground {
 /// the ground are bounded.
 struct Solids {
   std::vector<Solid> solids;
-  std::optional<Ground> ground;  ///< below all solids
+  std::optional<Ground> ground;    ///< below all solids
   std::vector<ExactPoint> points;  ///< corners of shells at which three planes meet
   /// All corners of shells' triangles, rounded; those in the middle of a face or of a straight edge
   /// matter only by that triangles share them.
@@ -76,9 +76,9 @@ struct ExactBox {
 ExactBox boxOf(const Solids& solids);
 
 /// The substance of each cell of `central` (of rank 3) around `point`, infinitely near to it. The
-/// families of `central` are those with a plane of the solids through the point, and maybe more. Exact: sides
-/// of planes are integers, and rays of shells are cast in directions in which rounding cannot
-/// matter. Throws `InputError` where there is no such direction.
+/// families of `central` are those with a plane of the solids through the point, and maybe more.
+/// Exact: sides of planes are integers, and rays of shells are cast in directions in which rounding
+/// cannot matter. Throws `InputError` where there is no such direction.
 std::vector<Substance> substancesAround(const Solids& solids, const Central& central,
                                         const ExactPoint& point);
 

@@ -4,10 +4,13 @@
 #include "synth/continuous/synthesize.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <span>
 
 #include "core/error.h"
 #include "core/random_streams.h"
+#include "synth/continuous/blocks.h"
+#include "synth/continuous/exact_search.h"
 #include "synth/continuous/filling.h"
 
 namespace exemplar::continuous {
@@ -49,29 +52,26 @@ void describe(PolygonModel& model, const Solids& solids, const std::vector<Mater
   model.size = size;
 }
 
-int rankOf(const Centrals& centrals, const Figure& figure) {
-  return centrals.of(figure.support).rank;
-}
-
-/// Shares of figures by rank.
-std::array<double, 4> sharesOf(const Centrals& centrals, const FigureSet& figures,
-                               const std::vector<double>& counts) {
-  std::array<double, 4> shares{};
-  double all = 0;
-  for (std::uint32_t f = 0; f < figures.size(); ++f) {
-    shares[static_cast<std::size_t>(rankOf(centrals, figures[f]))] += counts[f];
-    all += counts[f];
-  }
-  for (double& share : shares) share /= std::max(all, 1.0);
-  return shares;
-}
-
 std::vector<double> countsOf(const std::vector<std::uint32_t>& figures, std::size_t size) {
   std::vector<double> counts(size);
   for (const std::uint32_t f : figures)
     if (f != FigureSet::kNone) counts[f] += 1;
   return counts;
 }
+
+/// The free vertices of an arrangement.
+std::vector<std::uint32_t> innerVertices(const Arrangement& arrangement) {
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < arrangement.vertices(); ++v)
+    if (arrangement.inside(v)) vertices.push_back(v);
+  return vertices;
+}
+
+/// What a vertex may be where a demand is met.
+struct Allowed {
+  std::uint32_t vertex;
+  std::vector<Word> labels;
+};
 
 class Synthesis {
  public:
@@ -87,61 +87,60 @@ class Synthesis {
     const PlaneSets planes = planesIn(lattice_, windowOf(lattice_, options_.size));
     const Centrals centrals(planes.normals);
     const FigureSet figures = extractFigures(example_, centrals, progress.part(0, 0.1));
-    const std::vector<double> counts = exampleCounts(centrals, figures, progress.part(0.1, 0.2));
+    counts_ = exampleCounts(centrals, figures, progress.part(0.1, 0.2));
+    classes_ = classify(centrals, figures, example_.ground);
     const Arrangement arrangement(planes, centrals, options_.mostVertices,
-                                  progress.part(0.2, 0.45));
-    Puzzle puzzle = makePuzzle(arrangement, figures, example_.ground, progress.part(0.45, 0.5));
-    ContinuousStatistics& s = result_.statistics;
-    s.directions = lattice_.normals.size();
-    s.figures = figures.size();
-    s.classes = puzzle.classes.size();
-    s.vertices = arrangement.vertices();
-    s.exampleShares = sharesOf(centrals, figures, counts);
-    for (const VertexClass& c : puzzle.classes) s.labels = std::max(s.labels, c.labels());
-    for (std::uint32_t v = 0; v < arrangement.vertices(); ++v)
-      if (arrangement.inside(v)) vertices_.push_back(v);
-    s.freeVertices = vertices_.size();
-    setWeights(centrals, figures, counts);
-    restrictThin(puzzle);
-    restrictPlaced(puzzle);
-    solve(puzzle, progress.part(0.5, 0.9));
+                                  progress.part(0.2, 0.35));
+    Puzzle puzzle = makePuzzle(arrangement, figures, example_.ground, progress.part(0.35, 0.4));
+    vertices_ = innerVertices(arrangement);
+    noteSizes(puzzle);
+    restrictThin(puzzle, vertices_);
+    const Domains open = puzzle.domains;
+    std::vector<std::vector<Allowed>> demands;
+    for (const PlacedSubstance& placed : options_.placed)
+      demands.push_back(allowedFor(puzzle, placed));
+    for (const std::vector<Allowed>& demand : demands) {
+      for (const Allowed& a : demand)
+        for (std::size_t w = 0; w < a.labels.size(); ++w)
+          puzzle.domains[a.vertex][w] &= a.labels[w];
+    }
+    solve(puzzle, open, demands, progress.part(0.4, 0.9));
     if (result_.outcome != Outcome::Complete) return std::move(result_);
 
     const LabelFilling filling(puzzle, puzzle.domains, example_.ground);
-    s.shares = sharesOf(centrals, figures,
-                        countsOf(figuresOf(arrangement, filling, figures), figures.size()));
+    result_.statistics.shares =
+        sharesOf(classes_, countsOf(figuresOf(arrangement, filling, figures), figures.size()));
     result_.model = outline(arrangement, filling, progress.part(0.9, 1));
     describe(result_.model, example_, looks_, options_.size);
-    s.polygons = result_.model.polygons.size();
+    result_.statistics.polygons = result_.model.polygons.size();
     return std::move(result_);
   }
 
  private:
-  /// How often each figure is at an inner vertex of the example's own planes, continued.
+  /// How often each figure is at an inner vertex of the lattice's planes around the example.
   std::vector<double> exampleCounts(const Centrals& centrals, const FigureSet& figures,
                                     const Progress& progress) {
-    PlaneSets planes = planesIn(lattice_, windowOf(lattice_, sizeInSpacings(lattice_, example_)));
+    const PlaneSets planes =
+        planesIn(lattice_, windowOf(lattice_, sizeInSpacings(lattice_, example_)));
     const Arrangement own(planes, centrals, options_.mostVertices, progress.part(0, 0.5));
     const SolidsFilling filling(own, example_, progress.part(0.5, 1));
     return countsOf(figuresOf(own, filling, figures), figures.size());
   }
 
-  void setWeights(const Centrals& centrals, const FigureSet& figures,
-                  const std::vector<double>& counts) {
-    for (std::uint32_t f = 0; f < figures.size(); ++f) {
-      const bool empty = figures[f] == Figure{0, {kAir}} || isBareGround(figures[f]);
-      weights_.push_back((counts[f] + 0.5) * (empty ? 1 : options_.density));
+  void noteSizes(const Puzzle& puzzle) {
+    ContinuousStatistics& s = result_.statistics;
+    s.directions = lattice_.normals.size();
+    s.figures = puzzle.figures.size();
+    s.vertices = puzzle.arrangement.vertices();
+    s.freeVertices = vertices_.size();
+    s.exampleShares = sharesOf(classes_, counts_);
+    for (const VertexClass& c : puzzle.classes) {
+      s.classes += c.labels() > 0;
+      s.labels = std::max(s.labels, c.labels());
     }
-    (void)centrals;
-  }
-  bool isBareGround(const Figure& figure) const {
-    if (!example_.ground) return false;
-    return figure == Figure{0, {example_.ground->substance}} ||
-           (__builtin_popcount(figure.support) == 1 &&
-            figure.substances == std::vector<Substance>{example_.ground->substance, kAir});
   }
 
-  void restrictThin(Puzzle& puzzle) const {
+  void restrictThin(Puzzle& puzzle, std::span<const std::uint32_t> vertices) const {
     for (const Thickness& thin : options_.thin) {
       const int family = lattice_.familyOf(thin.normal);
       if (family < 0) throw InputError("`thin`: the example has no faces of this direction");
@@ -159,87 +158,219 @@ class Synthesis {
           if (!(above && below)) insert(kept[k], l);
         }
       }
-      for (const std::uint32_t v : vertices_) {
+      for (const std::uint32_t v : vertices) {
         const std::vector<Word>& keep = kept[puzzle.arrangement.kind(v)];
         for (std::size_t w = 0; w < keep.size(); ++w) puzzle.domains[v][w] &= keep[w];
       }
     }
   }
 
-  /// Which vertices are corners of the cell that a point is in, and which of their cells it is.
-  void restrictPlaced(Puzzle& puzzle) const {
+  /// The corners of the cell that a placed substance is in, and their labels that give it to it.
+  std::vector<Allowed> allowedFor(const Puzzle& puzzle, const PlacedSubstance& placed) const {
     const Arrangement& a = puzzle.arrangement;
-    for (const PlacedSubstance& placed : options_.placed) {
-      // Off the center, so that no plane goes through it: a third of a thousandth and more.
-      const Vec3d share{0.5 + 0.000317, 0.5 + 0.000731, 0.5 + 0.001123};
-      const Vec3d q = cast<double>(lattice_.origin) +
-                      scaled(cast<double>(lattice_.spacing), cast<double>(placed.cell) + share);
-      std::vector<int> slab;
-      for (std::size_t f = 0; f < a.planes().normals.size(); ++f) {
-        const double level = dot(cast<double>(a.planes().normals[f]), q);
-        slab.push_back(static_cast<int>(std::ranges::upper_bound(a.planes().offsets[f],
-                                                                 std::floor(level)) -
-                                        a.planes().offsets[f].begin()) -
-                       1);
-      }
-      for (const std::uint32_t v : vertices_) {
-        Families above = 0;
-        bool corner = true;
-        for (std::size_t f = 0; f < slab.size() && corner; ++f) {
-          const Arrangement::Level at = a.level(a.point(v), f);
-          corner = at.plane == slab[f] || (at.on && at.plane == slab[f] + 1);
-          if (at.on && at.plane == slab[f]) above |= Families{1} << f;
-        }
-        if (!corner) continue;
-        const VertexClass& c = puzzle.classOf(v);
-        const std::uint32_t cell = c.central->cell(above);
-        for (std::size_t l = 0; l < c.labels(); ++l) {
-          if (std::ranges::find(placed.substances, c.cells(l)[cell]) == placed.substances.end())
-            erase(puzzle.domains[v], l);
-        }
-      }
+    // Off the center of its spacing, so that hardly a plane can go through it.
+    const Vec3d share{0.5 + 0.000317, 0.5 + 0.000731, 0.5 + 0.001123};
+    const Vec3d q = cast<double>(lattice_.origin) +
+                    scaled(cast<double>(lattice_.spacing), cast<double>(placed.cell) + share);
+    std::vector<int> slab;
+    for (std::size_t f = 0; f < a.planes().normals.size(); ++f) {
+      const std::vector<std::int64_t>& offsets = a.planes().offsets[f];
+      const double level = dot(cast<double>(a.planes().normals[f]), q);
+      const auto above = std::ranges::upper_bound(offsets, std::floor(level));
+      slab.push_back(static_cast<int>(above - offsets.begin()) - 1);
     }
+    std::vector<Allowed> corners;
+    for (const std::uint32_t v : vertices_) {
+      Families above = 0;
+      bool corner = true;
+      for (std::size_t f = 0; f < slab.size() && corner; ++f) {
+        const Arrangement::Level at = a.level(a.point(v), f);
+        corner = at.plane == slab[f] || (at.on && at.plane == slab[f] + 1);
+        if (at.on && at.plane == slab[f]) above |= Families{1} << f;
+      }
+      if (!corner) continue;
+      const VertexClass& c = puzzle.classOf(v);
+      const std::uint32_t cell = c.central->cell(above);
+      Allowed allowed{v, std::vector<Word>(static_cast<std::size_t>(c.words))};
+      for (std::size_t l = 0; l < c.labels(); ++l) {
+        if (std::ranges::find(placed.substances, c.cells(l)[cell]) != placed.substances.end())
+          insert(allowed.labels, l);
+      }
+      corners.push_back(std::move(allowed));
+    }
+    return corners;
   }
 
-  void solve(Puzzle& puzzle, const Progress& progress) {
+  /// Weights that are learned in this puzzle where it is small, else in a smaller one.
+  void learn(const Puzzle& puzzle, const Domains& consistent, const Progress& progress) {
+    const LearnOptions options{options_.learning, options_.density};
+    const Random random(options_.seed, stream::kFigureLearning);
+    constexpr double kPilot = 6000;  // vertices
+    const double factor = std::sqrt(kPilot / static_cast<double>(vertices_.size()));
+    if (options_.learning == 0 || factor > 0.8) {
+      weights_ =
+          learnWeights(puzzle, consistent, vertices_, classes_, counts_, random, options, progress);
+      return;
+    }
+    const Vec3i least = sizeInSpacings(lattice_, example_);
+    Vec3i size = options_.size;
+    for (int axis = 0; axis < 2; ++axis)
+      size[axis] =
+          std::min(size[axis], std::max(least[axis], static_cast<int>(size[axis] * factor)));
+    const PlaneSets planes = planesIn(lattice_, windowOf(lattice_, size));
+    const Arrangement small(planes, puzzle.arrangement.centrals(), options_.mostVertices);
+    Puzzle pilot = makePuzzle(small, puzzle.figures, example_.ground);
+    const std::vector<std::uint32_t> vertices = innerVertices(small);
+    restrictThin(pilot, vertices);
+    Search::Marks marks(small.vertices());
+    const std::vector<double> equal(puzzle.figures.size(), 1);
+    Search search(pilot, equal, pilot.domains, marks);
+    search.begin(vertices, 1);
+    weights_ =
+        learnWeights(pilot, pilot.domains, vertices, classes_, counts_, random, options, progress);
+  }
+
+  void solve(Puzzle& puzzle, const Domains& open, const std::vector<std::vector<Allowed>>& demands,
+             const Progress& progress) {
+    weights_.assign(puzzle.figures.size(), 1);
     Search::Marks marks(puzzle.arrangement.vertices());
     Search search(puzzle, weights_, puzzle.domains, marks);
     ContinuousStatistics& s = result_.statistics;
-    if (!search.begin(vertices_, 1)) {
-      result_.outcome = Outcome::Impossible;
-      result_.why = "impossible: what is required excludes everything somewhere";
-      return;
-    }
-    const std::int64_t budget =
-        options_.budget > 0 ? options_.budget
-                            : 1000 + static_cast<std::int64_t>(vertices_.size()) / 10;
+    if (!search.begin(vertices_, 1)) return explain(puzzle, open, demands);
+    learn(puzzle, puzzle.domains, progress.part(0, 0.4));
+    const std::int64_t budget = options_.budget > 0
+                                    ? options_.budget
+                                    : 1000 + static_cast<std::int64_t>(vertices_.size()) / 10;
+    // `run` sees the weights through a view of the vector that `learn` has replaced.
+    Search passes(puzzle, weights_, puzzle.domains, marks);
+    passes.begin(vertices_, 2);
     for (int attempt = 0; attempt < options_.attempts && !options_.blocksOnly; ++attempt) {
       ++s.attempts;
-      const Found found = search.run(random_.fork(static_cast<std::uint64_t>(attempt)), budget,
-                                     progress);
-      s.choices = search.counts().choices;
-      s.failures = search.counts().failures;
-      if (found == Found::All) {
-        s.whole = true;
-        return;
+      const Found found = passes.run(random_.fork(static_cast<std::uint64_t>(attempt)), budget,
+                                     progress.part(0.4, 0.7));
+      s.choices = passes.counts().choices;
+      s.failures = passes.counts().failures;
+      if (found == Found::Nothing) return explain(puzzle, open, demands);
+      s.whole = found == Found::All;
+      if (s.whole) return;
+    }
+    const Outcome start = options_.blocks ? startOfBlocks(puzzle) : decide(puzzle, true);
+    if (start == Outcome::Impossible) return explain(puzzle, open, demands);
+    if (start != Outcome::Complete) {
+      result_.outcome = Outcome::Unfinished;
+      result_.why =
+          "no result within the budget, and none is proved impossible; try another `seed`, a "
+          "smaller `size`, or a larger `budget`";
+      return;
+    }
+    if (!options_.blocks) {
+      s.whole = true;
+      return;
+    }
+    Domains labels = start_;
+    const BlockCounts counts = modifyInBlocks(
+        puzzle, weights_, labels, random_,
+        {.spacing = lattice_.spacing, .side = options_.block, .rounds = options_.rounds},
+        progress.part(0.7, 1));
+    puzzle.domains = std::move(labels);
+    s.blocks = counts.blocks;
+    s.blocksKept = counts.kept;
+    s.choices += counts.choices;
+    s.failures += counts.failures;
+  }
+
+  /// The background where it is allowed, else what the exact solver finds near to it.
+  Outcome startOfBlocks(const Puzzle& puzzle) {
+    start_ = puzzle.domains;
+    bool allowed = true;
+    for (const std::uint32_t v : vertices_) {
+      const auto label = static_cast<std::size_t>(puzzle.background[v]);
+      allowed = allowed && contains(puzzle.domains[v], label);
+      std::ranges::fill(start_[v], 0);
+      insert(start_[v], label);
+    }
+    if (allowed) return Outcome::Complete;
+    Puzzle copy = puzzle;
+    const Outcome outcome = decide(copy, false);
+    start_ = copy.domains;
+    return outcome;
+  }
+
+  /// Solves all of a puzzle exactly, near to labels that are drawn, or to the background.
+  Outcome decide(Puzzle& puzzle, bool drawn) {
+    ++result_.statistics.exact;
+    ExactSearch exact(puzzle, puzzle.domains, vertices_);
+    for (const std::uint32_t v : vertices_) {
+      auto label = static_cast<std::size_t>(puzzle.background[v]);
+      if (drawn) {
+        double sum = 0;
+        const VertexClass& c = puzzle.classOf(v);
+        forEach(puzzle.domains[v], [&](std::size_t l) { sum += weights_[c.figures[l]]; });
+        double rest = sum * random_.uniform(v, 77);
+        bool decided = false;
+        forEach(puzzle.domains[v], [&](std::size_t l) {
+          if (decided) return;
+          label = l;
+          rest -= weights_[c.figures[l]];
+          decided = rest < 0;
+        });
       }
-      if (found == Found::Nothing) {
-        result_.outcome = Outcome::Impossible;
-        result_.why = "impossible: what is required cannot be met";
-        return;
+      exact.prefer(v, label);
+    }
+    const Outcome outcome = exact.solve({}, kConflicts);
+    if (outcome == Outcome::Complete) exact.take(puzzle.domains);
+    return outcome;
+  }
+
+  /// Says which placed substances exclude each other: a smallest set of them, by leaving out one
+  /// after the other.
+  void explain(const Puzzle& puzzle, const Domains& open,
+               const std::vector<std::vector<Allowed>>& demands) {
+    result_.outcome = Outcome::Impossible;
+    result_.why = "impossible: nothing meets what is required";
+    Puzzle free{puzzle.arrangement, puzzle.figures, puzzle.classes, open, puzzle.background};
+    Search::Marks marks(puzzle.arrangement.vertices());
+    Search search(free, weights_, free.domains, marks);
+    if (!search.begin(vertices_, 1)) return;
+    ++result_.statistics.exact;
+    ExactSearch exact(free, free.domains, vertices_);
+    std::vector<int> core;
+    for (std::size_t d = 0; d < demands.size(); ++d) {
+      core.push_back(exact.newDemand());
+      for (const Allowed& a : demands[d]) exact.addToDemand(core.back(), a.vertex, a.labels);
+    }
+    if (exact.solve(core, kConflicts) != Outcome::Impossible) return;
+    const auto keepUsed = [&] { std::erase_if(core, [&](int d) { return !exact.used(d); }); };
+    keepUsed();
+    for (std::size_t d = 0; d < core.size();) {
+      std::vector<int> fewer;
+      for (std::size_t n = 0; n < core.size(); ++n)
+        if (n != d) fewer.push_back(core[n]);
+      if (exact.solve(fewer, kConflicts) == Outcome::Impossible) {
+        core = fewer;
+        keepUsed();
+      } else {
+        ++d;
       }
     }
-    result_.outcome = Outcome::Unfinished;
-    result_.why = "no result within the budget; try another `seed`, or a larger `budget`";
+    result_.conflict = core;
+    if (core.empty()) return;
+    result_.why = core.size() == 1 ? "impossible: nothing meets this demand"
+                                   : "impossible: these demands exclude each other";
   }
+
+  static constexpr std::int64_t kConflicts = 300'000;
 
   const Solids& example_;
   const std::vector<Material>& looks_;
   const ContinuousOptions& options_;
   PlaneLattice lattice_;
   Random random_;
+  std::vector<double> counts_;           // of figures in the example
+  std::vector<FigureClass> classes_;     // of figures
   std::vector<std::uint32_t> vertices_;  // inner ones
   std::vector<double> weights_;          // of figures
+  Domains start_{0, 1};                  // of blocks
   ContinuousResult result_;
 };
 

@@ -13,6 +13,7 @@
 #include "synth/continuous/polygons.h"
 #include "synth/continuous/search.h"
 #include "synth/continuous/solids.h"
+#include "synth/continuous/weights.h"
 
 /// Continuous model synthesis: P. Merrell and D. Manocha, "Continuous Model Synthesis", ACM
 /// Transactions on Graphics 27(5) (SIGGRAPH Asia), 2008, doi:10.1145/1409060.1409111; P. Merrell,
@@ -37,12 +38,11 @@ struct Thickness {
 };
 
 struct ContinuousOptions {
-  Vec3i size{1, 1, 1};        ///< of the result, in spacings
+  Vec3i size{1, 1, 1};  ///< of the result, in spacings
   std::uint64_t seed = 0;
   std::optional<std::int64_t> spacing;  ///< of planes, units; found
-  /// How full the result is, in shares of the example: weights of all that is not empty are
-  /// multiplied by it. > 0.
-  double density = 1;
+  double density = 1;                   ///< how full the result is, in shares of the example's, > 0
+  int learning = 8;         ///< rounds in which weights are adapted to the example's shares, >= 0
   std::int64_t budget = 0;  ///< failed choices of an attempt; 0: 1,000 and a tenth of the vertices
   int attempts = 3;         ///< in one pass, before blocks
   int block = 20;           ///< side of a block, spacings
@@ -59,16 +59,14 @@ struct ContinuousStatistics {
   std::size_t vertices = 0, freeVertices = 0;
   std::int64_t choices = 0, failures = 0, attempts = 0, blocks = 0, blocksKept = 0, exact = 0;
   std::size_t polygons = 0;
-  bool whole = false;  ///< in one pass, not in blocks
-  /// For each rank (within a substance, face, edge, corner) its share of the inner vertices, in the
-  /// example and in the result.
-  std::array<double, 4> exampleShares{}, shares{};
+  bool whole = false;                ///< in one pass, not in blocks
+  Shares exampleShares{}, shares{};  ///< of classes of figures, at inner vertices
 };
 
 struct ContinuousResult {
   Outcome outcome = Outcome::Complete;
-  PolygonModel model;  ///< where complete
-  std::string why;     ///< where not: one sentence
+  PolygonModel model;         ///< where complete
+  std::string why;            ///< where not: one sentence
   std::vector<int> conflict;  ///< where impossible: indices of `placed` that exclude each other
   ContinuousStatistics statistics;
 };

@@ -297,7 +297,9 @@ TriangleMesh triangulate(const PolygonModel& model, Faces faces,
   }
   for (std::size_t s = 1; s < model.substances.size(); ++s) {
     std::ranges::fill(number, kNew);
-    take([&](const Polygon& polygon) { return polygon.below == s ? 1 : polygon.above == s ? -1 : 0; });
+    take([&](const Polygon& polygon) {
+      return polygon.below == s ? 1 : polygon.above == s ? -1 : 0;
+    });
   }
   return mesh;
 }

@@ -28,13 +28,17 @@ Result runOn(const Engine& engine, const Example& example, const Request& reques
 }
 
 Example exampleFor(const Engine& engine) {
+  if (engine.form() == Form::Polygons)
+    return readExample(Source::of(boxes()), {.form = Form::Polygons});
   return readExample(engine.form() == Form::Field ? Source::of(bumps()) : Source::of(rings()));
 }
 
 /// A small request that an engine answers quickly.
 Request smallRequest(const Engine& engine, std::uint64_t seed = 0) {
   Request request;
-  request.extent.size = engine.form() == Form::Field ? Vec3i{36, 30, 12} : Vec3i{14, 12, 1};
+  request.extent.size = engine.form() == Form::Field    ? Vec3i{36, 30, 12}
+                        : engine.form() == Form::Labels ? Vec3i{14, 12, 1}
+                                                        : Vec3i{20, 10, 4};
   request.seed = seed;
   if (engine.name() == "blocks") request.settings = {{"block", "8"}};
   return request;
@@ -49,9 +53,9 @@ TEST(Engines, AreFoundByNameAndByWhatTheExampleIs) {
   EXPECT_EQ(engineFor(Source::of(rings())).name(), "model");
   EXPECT_EQ(engineFor(Source::of(boxes())).name(), "geometry");
   EXPECT_EQ(engineFor("castle.png").name(), "geometry");
-  EXPECT_THAT(
-      [] { engineNamed("best"); },
-      ThrowsMessage<InputError>(HasSubstr("expected geometry, quilting, voting, blocks or model")));
+  EXPECT_THAT([] { engineNamed("best"); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("expected geometry, quilting, voting, blocks, model or continuous")));
 }
 
 TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
@@ -62,8 +66,13 @@ TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
     const Result result = runOn(*engine, example, request);
     ASSERT_EQ(result.outcome, Outcome::Complete) << result.why;
     EXPECT_EQ(result.engine, engine->name());
-    ASSERT_EQ(result.origins.size(), *request.extent.size);
     EXPECT_EQ(engine->extentOf({&example, 1}, request), *request.extent.size);
+    if (engine->form() == Form::Polygons) {
+      EXPECT_EQ(result.polygons().size, *request.extent.size);
+      EXPECT_FALSE(result.polygons().polygons.empty());
+    } else {
+      ASSERT_EQ(result.origins.size(), *request.extent.size);
+    }
     for (std::size_t s = 0; s < result.origins.count(); ++s) {
       const Vec3i from = result.origins.values()[s].cell();
       if (engine->form() == Form::Field) {
@@ -89,6 +98,9 @@ TEST(Engines, GiveTheSameBytesAtOneAndEightThreads) {
     EXPECT_EQ(one.origins, eight.origins);
     if (engine->form() == Form::Field) {
       EXPECT_EQ(one.field().values, eight.field().values);
+    } else if (engine->form() == Form::Polygons) {
+      EXPECT_EQ(one.polygons().points, eight.polygons().points);
+      EXPECT_EQ(one.polygons().polygons.size(), eight.polygons().polygons.size());
     } else {
       EXPECT_EQ(one.labels().cells, eight.labels().cells);
     }
@@ -265,6 +277,47 @@ TEST(ParseComparedEngine, TakesTheSettingsThatSynthTakes) {
     const auto parse = [&written = text] { parseComparedEngine(written); };
     EXPECT_THAT(parse, ThrowsMessage<InputError>(HasSubstr(says))) << text;
   }
+}
+
+constexpr const char* kCubes =
+    "kind = \"solids\"\nground = { height = 0, substance = \"grass\" }\n"
+    "[[part]]\nsubstance = \"brick\"\nbox = [0, 0, 0, 2, 2, 2]\n";
+
+TEST(ContinuousEngine, TakesScenesOfSolidsAndClosedMeshes) {
+  const Source scene = Source::ofBytes(kCubes, "cubes.toml");
+  EXPECT_EQ(sourceKind(scene), SourceKind::Solids);
+  EXPECT_EQ(engineFor(scene).name(), "continuous");
+  const Example cubes = readExample(scene);
+  EXPECT_EQ(cubes.form(), Form::Polygons);
+  EXPECT_TRUE(
+      realize(runOn(continuousEngine(), cubes, smallRequest(continuousEngine())), {&cubes, 1})
+          .health.closed());
+  // The same scene as distances, for the other engines.
+  EXPECT_EQ(readExample(scene, {.form = Form::Field, .resolution = 16}).form(), Form::Field);
+  EXPECT_THAT([] { readExample(Source::of(rings()), {.form = Form::Polygons}); },
+              ThrowsMessage<InputError>(HasSubstr("takes closed meshes and scenes of solids")));
+  TriangleMesh ball = makeSphere({0, 0, 0}, 1);
+  EXPECT_THAT([&] { readExample(Source::of(ball), {.form = Form::Polygons}); },
+              ThrowsMessage<InputError>(HasSubstr("directions, and at most 32")));
+}
+
+TEST(ContinuousEngine, PinsAndThinMaterialsAreNamedByTheExample) {
+  const Example cubes = readExample(Source::ofBytes(kCubes, "cubes.toml"));
+  Request request = smallRequest(continuousEngine());
+  request.extent.size = Vec3i{8, 8, 3};
+  request.settings = {{"thin", "brick=x"}};
+  request.decided.pins = {{{2, 2, 0}, "brick"}, {{3, 2, 0}, "brick"}};
+  const Result result = runOn(continuousEngine(), cubes, request);
+  ASSERT_EQ(result.outcome, Outcome::Impossible);
+  EXPECT_EQ(result.conflict->pins, (std::vector<int>{0, 1}));
+  EXPECT_THAT(result.why, HasSubstr("`pin` 2,2,0=brick and `pin` 3,2,0=brick"));
+  request.settings = {{"thin", "stone=x"}};
+  EXPECT_THAT([&] { runOn(continuousEngine(), cubes, request); },
+              ThrowsMessage<InputError>(HasSubstr("there is no material stone")));
+  request.settings = {};
+  request.decided.pins = {{{9, 2, 0}, "brick"}};
+  EXPECT_THAT([&] { runOn(continuousEngine(), cubes, request); },
+              ThrowsMessage<InputError>(HasSubstr("outside of the result's 8 x 8 x 3")));
 }
 
 }  // namespace

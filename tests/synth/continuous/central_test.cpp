@@ -49,8 +49,8 @@ TEST(Central, RaysAreOrderedAndHaveTheirOpposites) {
 }
 
 TEST(Central, EveryDirectionIsInACell) {
-  const std::vector<Vec3l> normals{{0, 0, 1}, {3, -4, 0}, {3, 4, 0}, {19, -6, 0}, {19, 6, 0},
-                                   {0, 1, 0}, {1, 2, 3}};
+  const std::vector<Vec3l> normals{{0, 0, 1},  {3, -4, 0}, {3, 4, 0}, {19, -6, 0},
+                                   {19, 6, 0}, {0, 1, 0},  {1, 2, 3}};
   const Centrals centrals(normals);
   const Central& central = centrals.of(allOf(normals));
   std::mt19937 random(1);

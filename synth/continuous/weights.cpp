@@ -1,0 +1,129 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/continuous/weights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace exemplar::continuous {
+namespace {
+
+/// What figures that the example's own planes do not show count as.
+constexpr double kUnseen = 0.5;
+/// Shares near this one and below count less when results are compared: they vary by chance.
+constexpr double kSmallShare = 0.005;
+/// Trial results of a round, whose shares are averaged.
+constexpr int kTrials = 2;
+
+bool isEmpty(const Figure& figure, const std::optional<Ground>& ground) {
+  if (figure == Figure{0, {kAir}}) return true;
+  if (!ground) return false;
+  return figure == Figure{0, {ground->substance}} ||
+         (__builtin_popcount(figure.support) == 1 &&
+          figure.substances == std::vector<Substance>{ground->substance, kAir});
+}
+
+std::vector<double> weighted(std::span<const FigureClass> classes, std::span<const double> counts,
+                             const Shares& factors) {
+  std::vector<double> weights;
+  for (std::size_t f = 0; f < counts.size(); ++f)
+    weights.push_back((counts[f] + kUnseen) * factors[static_cast<std::size_t>(classes[f])]);
+  return weights;
+}
+
+}  // namespace
+
+const char* figureClassName(FigureClass figureClass) {
+  constexpr const char* names[] = {"empty", "within", "face", "edge", "corner"};
+  return names[static_cast<int>(figureClass)];
+}
+
+std::vector<FigureClass> classify(const Centrals& centrals, const FigureSet& figures,
+                                  const std::optional<Ground>& ground) {
+  std::vector<FigureClass> classes;
+  for (const Figure& figure : figures.all()) {
+    constexpr FigureClass ofRank[] = {FigureClass::Within, FigureClass::Face, FigureClass::Edge,
+                                      FigureClass::Corner};
+    classes.push_back(isEmpty(figure, ground) ? FigureClass::Empty
+                                              : ofRank[centrals.of(figure.support).rank]);
+  }
+  return classes;
+}
+
+Shares sharesOf(std::span<const FigureClass> classes, std::span<const double> counts) {
+  Shares shares{};
+  double all = 0;
+  for (std::size_t f = 0; f < counts.size(); ++f) {
+    shares[static_cast<std::size_t>(classes[f])] += counts[f];
+    all += counts[f];
+  }
+  for (double& share : shares) share /= std::max(all, 1.0);
+  return shares;
+}
+
+double largestFactor(const Shares& shares, const Shares& wanted) {
+  double largest = 1;
+  for (int c = 0; c < kFigureClasses; ++c) {
+    if (wanted[c] <= 0) continue;
+    const double factor = (shares[c] + kSmallShare) / (wanted[c] + kSmallShare);
+    largest = std::max({largest, factor, 1 / factor});
+  }
+  return largest;
+}
+
+std::vector<double> learnWeights(const Puzzle& puzzle, const Domains& consistent,
+                                 std::span<const std::uint32_t> vertices,
+                                 std::span<const FigureClass> classes,
+                                 std::span<const double> counts, const Random& random,
+                                 const LearnOptions& options, const Progress& progress) {
+  Shares wanted = sharesOf(classes, counts);
+  double full = 0;
+  for (int c = 1; c < kFigureClasses; ++c) full += wanted[c] *= options.density;
+  wanted[0] = std::max(0.0, 1 - full);
+  Shares factors;
+  factors.fill(1);
+  if (options.rounds == 0) {
+    std::fill(factors.begin() + 1, factors.end(), options.density);
+    return weighted(classes, counts, factors);
+  }
+  std::vector<double> best = weighted(classes, counts, factors), weights = best;
+  double nearest = std::numeric_limits<double>::infinity();
+  Domains domains = consistent;
+  Search::Marks marks(puzzle.arrangement.vertices());
+  for (int round = 0; round < options.rounds; ++round) {
+    progress.report("learning weights", static_cast<double>(round) / options.rounds);
+    std::vector<double> made(counts.size());
+    int succeeded = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      domains = consistent;
+      Search search(puzzle, weights, domains, marks);
+      const auto number = static_cast<std::uint64_t>(round * kTrials + trial);
+      if (!search.begin(vertices, static_cast<std::uint32_t>(number) + 1)) continue;
+      const auto budget = 100 + static_cast<std::int64_t>(vertices.size()) / 50;
+      if (search.run(random.fork(500 + number), budget) != Found::All) continue;
+      ++succeeded;
+      for (const std::uint32_t v : vertices) {
+        const VertexClass& c = puzzle.classOf(v);
+        forEach(domains[v], [&](std::size_t l) { made[c.figures[l]] += 1; });
+      }
+    }
+    if (succeeded == 0) continue;
+    const Shares shares = sharesOf(classes, made);
+    if (const double factor = largestFactor(shares, wanted); factor < nearest) {
+      nearest = factor;
+      best = weights;
+    }
+    // A class that is not there at all counts as a quarter of a vertex.
+    const double least = 0.25 / static_cast<double>(vertices.size());
+    for (int c = 0; c < kFigureClasses; ++c) {
+      if (wanted[c] <= 0) continue;
+      const double step = std::pow(wanted[c] / std::max(shares[c], least), 0.6);
+      factors[c] *= std::clamp(step, 0.3, 3.0);
+    }
+    weights = weighted(classes, counts, factors);
+  }
+  return best;
+}
+
+}  // namespace exemplar::continuous

@@ -1,0 +1,58 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/random.h"
+#include "synth/continuous/search.h"
+
+/// How likely each figure is chosen. The papers choose among all with equal probability, which
+/// crowds the result; here it is as full as the example.
+namespace exemplar::continuous {
+
+/// Classes of figures whose shares of a result's vertices are held near the example's.
+enum class FigureClass {
+  Empty,   ///< air, bare ground, and what is below
+  Within,  ///< within any other substance
+  Face,    ///< on a face
+  Edge,    ///< on a straight edge
+  Corner,
+};
+inline constexpr int kFigureClasses = 5;
+/// "empty", "within", "face", "edge", "corner".
+const char* figureClassName(FigureClass figureClass);
+
+using Shares = std::array<double, kFigureClasses>;
+
+std::vector<FigureClass> classify(const Centrals& centrals, const FigureSet& figures,
+                                  const std::optional<Ground>& ground);
+
+/// Shares of classes among vertices, by how often each figure is there.
+Shares sharesOf(std::span<const FigureClass> classes, std::span<const double> counts);
+
+/// The largest factor between two results' shares of a class that both should have; 1 is equal.
+/// Shares below half a percent count less.
+double largestFactor(const Shares& shares, const Shares& wanted);
+
+struct LearnOptions {
+  int rounds = 8;      ///< of trial results, >= 0; 0: weights are the example's counts
+  double density = 1;  ///< of all classes but the empty one, in shares of the example's, > 0
+};
+
+/// Weights of figures: how often each is in the example, times a factor for each class that is
+/// adapted in trial results of a puzzle until these have the example's shares. `consistent` are the
+/// puzzle's domains, arc consistent. The trials are results of other seeds. Throws `Cancelled`.
+std::vector<double> learnWeights(const Puzzle& puzzle, const Domains& consistent,
+                                 std::span<const std::uint32_t> vertices,
+                                 std::span<const FigureClass> classes,
+                                 std::span<const double> counts, const Random& random,
+                                 const LearnOptions& options, const Progress& progress = {});
+
+}  // namespace exemplar::continuous
