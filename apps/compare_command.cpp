@@ -62,7 +62,8 @@ void compareEngines(const Options& options, Terminal& terminal) {
   comparison.seeds = options.seeds;
   comparison.scale = requestOf(options.settings).extent.scale;
   comparison.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path); };
-  const ReadOptions reading = readingOf(options.settings, Form::Field);
+  ReadOptions reading = readingOf(options.settings, Form::Field);
+  reading.wanted = Extent{.scale = comparison.scale, .size = {}};
   comparison.mesh = reading.mesh;
   const Example example = readExample(options.example, reading, terminal.progress().part(0, 0.1));
   terminal.say("example", options.example + ": " + example.description);
@@ -95,7 +96,9 @@ Command addCompareCommand(CLI::App& app) {
   command->add_option("--seeds", options->seeds, "how many seeds each engine gets")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--seed", options->firstSeed, "the first of them")->capture_default_str();
+  command->add_option("--seed", options->firstSeed, "the first of them")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command
       ->add_option("--engines", options->engines,
                    "which: those of synth, or overlap (model on blocks that overlap; slow on solid "

@@ -32,6 +32,8 @@ enum Name : std::uint32_t {
   // synth/continuous
   kFigureChoice = 0x46494731,    ///< which figure a vertex takes
   kFigureLearning = 0x46494732,  ///< trial results in which weights are learned
+  // sdf
+  kDetailPlaces = 0xde7a,  ///< where a surface is looked at for its detail
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,

@@ -4,6 +4,7 @@
 // Geometry synthesis: from fields to a field.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -39,32 +40,53 @@ Vec3i fieldSize(std::span<const Example> examples, const Request& request) {
   return size;
 }
 
-/// A solid to ask for what is inside: a mesh's, or a volume's.
-DistanceField readRegion(const Source& source, double voxelSize, const ReadOptions& reading,
-                         const Progress& progress) {
+void requireRegion(const Source& source) {
+  requireThere(source);
+  const SourceKind kind = sourceKind(source);
+  if (kind != SourceKind::Mesh && kind != SourceKind::Volume)
+    throw InputError("`keep`: " + source.name() + " is neither a mesh nor a .vdb");
+}
+
+void requireGuide(const Source& source) {
+  requireThere(source);
+  const SourceKind kind = sourceKind(source);
+  if (kind == SourceKind::Labels || kind == SourceKind::Picture)
+    throw InputError("`guide`: " + source.name() + " is neither a mesh, a volume nor a height map");
+}
+
+/// A solid to ask for what is inside: a mesh's, or a volume's, and from there to where it lies.
+struct Region {
+  DistanceField field;
+  Turn turn;
+};
+Region readRegion(const Source& source, double voxelSize, const ReadOptions& reading,
+                  const Progress& progress) {
+  Region region;
+  requireRegion(source);
   switch (sourceKind(source)) {
     case SourceKind::Mesh:
-      return meshToSdf(readTriangles(source, reading.mesh),
-                       {.voxelSize = voxelSize, .padding = kRegionPadding}, progress);
-    case SourceKind::Volume:
-      return readDistances(source);
+      region.field = meshToSdf(readTriangles(source, reading.mesh),
+                               {.voxelSize = voxelSize, .padding = kRegionPadding}, progress);
+      return region;
     default:
-      throw InputError("`keep`: " + source.name() + " is neither a mesh nor a .vdb");
+      region.field = readDistances(source, {.turn = &region.turn});
+      return region;
   }
 }
 
 /// Which samples of a result are inside the solid that is kept.
-Array3D<std::uint8_t> keptSamples(const Source& source, const DistanceField& example,
-                                  const Vec3i& size, const ReadOptions& reading,
-                                  const Progress& progress) {
-  const DistanceField region = readRegion(source, example.voxelSize, reading, progress);
-  const Box3d box = region.box();
+Array3D<std::uint8_t> keptSamples(const Source& source, const Example& in, const Vec3i& size,
+                                  const ReadOptions& reading, const Progress& progress) {
+  const DistanceField& example = in.field();
+  const Region region = readRegion(source, example.voxelSize, reading, progress);
+  const Box3d box = region.field.box();
+  const Turn back = region.turn.back();
   Array3D<std::uint8_t> kept(size);
   bool any = false;
   forEachCell(min(size, example.size()), [&](const Vec3i& p) {
-    const Vec3d xyz = example.position(cast<double>(p));
+    const Vec3d xyz = back(in.turn(example.position(cast<double>(p))));
     if (!box.contains(xyz)) return;
-    kept[p] = sampleTrilinear(region, xyz) < 0;
+    kept[p] = sampleTrilinear(region.field, xyz) < 0;
     any = any || kept[p];
   });
   if (!any) {
@@ -79,6 +101,8 @@ Array3D<float> guideDistances(const Source& source, const Vec3i& size, const Rea
                               const Progress& progress) {
   ReadOptions options = reading;
   options.form = Form::Field;
+  options.holdDetail = options.scatter = false;
+  options.wanted.reset();
   options.padding = 0;
   const Example guideExample = readExample(source, options, progress);
   const DistanceField& field = guideExample.field();
@@ -132,6 +156,16 @@ Result resultOf(SynthesisResult made, const std::string& method,
   result.data = std::move(made.field);
   result.origins = std::move(made.origins);
   return result;
+}
+
+/// Axes that were found: parts of what goes on along some move along the others only where the
+/// result is longer there, too; a wall stays as high as it is.
+Axes withoutSideways(Axes found, const Example& example, const Vec3i& size) {
+  if (!example.goesOn.any()) return found;
+  for (int axis = 0; axis < 3; ++axis)
+    found[axis] =
+        found[axis] && (example.goesOn[axis] || size[axis] > example.field().size()[axis]);
+  return found;
 }
 
 /// Notes along which axes parts were moved, and whether that was found.
@@ -194,6 +228,14 @@ class FieldEngine : public Engine {
   Vec3i extentOf(std::span<const Example> examples, const Request& request) const override {
     return fieldSize(examples, request);
   }
+
+ protected:
+  void checkFurther(const Request& request, std::size_t) const override {
+    if (request.settings.has("guide-weight") && !request.guide)
+      throw InputError("`guide-weight`: there is no `guide` to weigh");
+    if (request.decided.keep) requireRegion(*request.decided.keep);
+    if (request.guide) requireGuide(*request.guide);
+  }
 };
 
 class QuiltingEngine final : public FieldEngine {
@@ -224,7 +266,12 @@ class QuiltingEngine final : public FieldEngine {
     QuiltingOptions options = optionsOf(examples, request);
     const DistanceField& example = examples.front().field();
     const bool found = !options.stationary;
-    if (found) options.stationary = findStationaryAxes(example);
+    if (found) {
+      options.stationary =
+          withoutSideways(findStationaryAxes(example), examples.front(), options.size);
+      if (examples.front().goesOn.any())
+        for (int axis = 0; axis < 3; ++axis) options.inPlace[axis] = !(*options.stationary)[axis];
+    }
     Result result =
         resultOf(synthesizeByQuilting(example, options, progress), "quilting", examples);
     noteStationary(*options.stationary, found, result);
@@ -251,15 +298,12 @@ class VotingEngine final : public FieldEngine {
                     const Progress& progress) const override {
     VotingOptions options;
     votingTable().apply(request.settings, options);
-    if (request.settings.has("guide-weight") && !request.guide)
-      throw InputError("`guide-weight`: there is no `guide` to weigh");
     options.size = fieldSize(examples, request);
     options.seed = request.seed;
     options.periodic = request.periodic;
-    const DistanceField& example = examples.front().field();
     if (request.decided.keep) {
-      options.kept = keptSamples(*request.decided.keep, example, options.size, request.reading,
-                                 progress.part(0, 0.05));
+      options.kept = keptSamples(*request.decided.keep, examples.front(), options.size,
+                                 request.reading, progress.part(0, 0.05));
     }
     if (request.guide) {
       options.guide =
@@ -267,7 +311,10 @@ class VotingEngine final : public FieldEngine {
     }
     const std::vector<const DistanceField*> fields = fieldsOf(examples);
     const bool found = !options.stationary;
-    if (found) options.stationary = stationaryAxes(fields, options.kept ? &*options.kept : nullptr);
+    if (found)
+      options.stationary =
+          withoutSideways(stationaryAxes(fields, options.kept ? &*options.kept : nullptr),
+                          examples.front(), options.size);
     Result result =
         resultOf(synthesizeByVoting(fields, options, progress.part(0.1, 1)), "voting", examples);
     noteStationary(*options.stationary, found, result);
@@ -331,6 +378,13 @@ class BlocksEngine final : public FieldEngine {
   std::span<const std::string_view> honors() const override { return {}; }
 
  protected:
+  void checkFurther(const Request& request, std::size_t) const override {
+    BlocksOptions options;
+    table().apply(request.settings, options);
+    if (!std::has_single_bit(static_cast<unsigned>(options.block)))
+      throw InputError("`block` " + std::to_string(options.block) +
+                       ": expected a power of two, 2 to 256");
+  }
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {
     BlocksOptions options;

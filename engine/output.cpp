@@ -105,11 +105,15 @@ Written writeField(const fs::path& path, const Result& result, const Example& ex
     written.label = "heights";
     HeightMap map = sdfToHeightMap(result.field(), progress.part(0, 0.5));
     map.steps = example.heightSteps;
+    if (!example.turn.none())
+      written.warnings.push_back(
+          path.string() +
+          ": heights lie along x and y; the result is not turned back as the example lies");
     writeHeightMap(path, map,
                    {.heightScale = example.reading.heightScale, .warnings = &written.warnings},
                    progress.part(0.5, 1));
   } else {
-    writeVdb(path, result.field(), result.periodic, progress);
+    writeVdb(path, result.field(), result.periodic, example.turn, progress);
   }
   return written;
 }
@@ -148,17 +152,17 @@ void requireOutput(const fs::path& path, const std::string& endings) {
   const OutputFile probe(path);
 }
 
-void requireOutputFits(const fs::path& path, Form form, const Vec3i& size, int frames,
-                       bool instances) {
-  if (form != Form::Labels) return;
+void requireOutputKind(const fs::path& path, bool hasFrames, bool instances) {
   if (instances && !endsWith(path, ".glb"))
     throw InputError("`instances`: only a .glb has instances, not " + path.string());
-  if (endsWith(path, ".gif") && frames == 0) {
+  if (endsWith(path, ".gif") && !hasFrames) {
     throw InputError(path.string() +
-                     ": only what changes over time becomes one; say how many "
-                     "`frames`");
+                     ": only what changes over time becomes one; say how many `frames`");
   }
-  if (endsWith(path, ".png") && size.z != 1) {
+}
+
+void requireOutputFits(const fs::path& path, Form form, const Vec3i& size) {
+  if (form == Form::Labels && endsWith(path, ".png") && size.z != 1) {
     throw InputError(path.string() + ": a picture has one layer, and the result " +
                      std::to_string(size.z) + "; write a .txt, .vox, .vdb or a mesh");
   }
@@ -204,7 +208,7 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
       labeled && endsWith(path, ".vdb")) {
     const PlacedBlocks placed =
         placeBlocks(labeled->field, labeled->blocks, grid.cells, progress.part(0, 0.5));
-    writeVdb(path, placed.field, {}, progress.part(0.5, 1));
+    writeVdb(path, placed.field, {}, example.turn, progress.part(0.5, 1));
     return {"written",
             path.string() + ": distances, " + readableSize(placed.field.size(), "samples"),
             {}};

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "engine/example_forms.h"
 #include "engine/words.h"
+#include "mesh/footprint.h"
 #include "reconstruct/copy_triangles.h"
 #include "reconstruct/field_to_mesh.h"
 #include "reconstruct/reconstruct.h"
@@ -96,12 +97,16 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
   }
 }
 
-void requireSurface(const SurfaceOptions& options, std::span<const Example> examples) {
+void requireSurface(const SurfaceOptions& options, std::size_t examples) {
   if (options.surface == SurfaceKind::Contour) return;
   if (options.simplify > 0 || options.triangles > 0)
     throw InputError("`simplify`, `triangles`: only a contour is simplified, not copied triangles");
-  if (examples.size() > 1)
-    throw InputError("`surface` copy: there are several examples; use contour");
+  if (examples > 1) throw InputError("`surface` copy: there are several examples; use contour");
+}
+
+void requireSurface(const SurfaceOptions& options, std::span<const Example> examples) {
+  requireSurface(options, examples.size());
+  if (options.surface == SurfaceKind::Contour) return;
   if (!examples.front().mesh)
     throw InputError("`surface` copy: the example has no triangles to copy; use contour");
 }
@@ -113,8 +118,11 @@ Surface realize(const Result& result, std::span<const Example> examples,
   if (result.form() == Form::Map) throw InputError("a map has no surface; write a .png");
   requireSurface(options, examples);
   if (result.form() == Form::Field) {
-    return options.surface == SurfaceKind::Copy ? copied(result, examples, progress)
-                                                : contoured(result, examples, options, progress);
+    Surface surface = options.surface == SurfaceKind::Copy
+                          ? copied(result, examples, progress)
+                          : contoured(result, examples, options, progress);
+    turn(surface.mesh, examples.front().turn);
+    return surface;
   }
   Surface surface;
   if (result.form() == Form::Polygons) {
@@ -148,7 +156,9 @@ TriangleMesh realizeLabels(const LabelGrid& grid, const Example& example,
 }
 
 TriangleMesh contourOf(const Example& example, const Progress& progress) {
-  return fieldToMesh(example.field(), {.wraps = example.continues}, progress);
+  TriangleMesh mesh = fieldToMesh(example.field(), {.wraps = example.continues}, progress);
+  turn(mesh, example.turn);
+  return mesh;
 }
 
 TriangleMesh pictured(const Example& example, const Progress& progress) {
@@ -164,13 +174,18 @@ TriangleMesh pictured(const Example& example, const Progress& progress) {
     return example.mesh ? *example.mesh
                         : boxesOf(example.labels(), false, example.name(), progress);
   }
-  if (example.mesh && example.kind == SourceKind::Mesh) return *example.mesh;
+  if (example.mesh && example.kind == SourceKind::Mesh) {
+    TriangleMesh mesh = *example.mesh;
+    turn(mesh, example.turn);
+    return mesh;
+  }
   const DistanceField& field = example.field();
   TriangleMesh mesh = fieldToMesh(field, {}, progress.part(0, 0.6));
   if (example.mesh) {
     transferAppearance(mesh, field, identityOrigins(field.size()), *example.mesh, field, {},
                        progress.part(0.6, 1));
   }
+  turn(mesh, example.turn);
   return mesh;
 }
 

@@ -34,7 +34,9 @@ struct SurfaceOptions {
 /// The settings that fill `SurfaceOptions`, for results of a form.
 const SettingTable<SurfaceOptions>& surfaceSettings(Form form);
 
-/// Throws `InputError` where results of these examples cannot have such a surface.
+/// Throws `InputError` where results of so many examples cannot have such a surface, and where
+/// results of these cannot.
+void requireSurface(const SurfaceOptions& options, std::size_t examples);
 void requireSurface(const SurfaceOptions& options, std::span<const Example> examples);
 
 struct Surface {
@@ -48,7 +50,7 @@ struct Surface {
 /// A complete result as triangles with the examples' materials: of a field its contour, or the
 /// example's triangles copied; of labels the example's model pieces, or blocks of its field, or
 /// boxes. Does not apply `SurfaceOptions::detail` (`withDetail` does). Throws `InputError` where
-/// there is no surface, and `Cancelled`.
+/// there is no surface, and `Cancelled`. Surfaces lie as in the example's file (`Example::turn`).
 Surface realize(const Result& result, std::span<const Example> examples,
                 const SurfaceOptions& options = {}, const Progress& progress = {});
 
