@@ -28,8 +28,8 @@ namespace exemplar {
 namespace {
 
 struct Options {
-  std::vector<std::string> examples, with;
-  std::string output, engine, preview, stats, origins, report;
+  std::vector<std::string> examples, with, outputs;
+  std::string engine, preview, stats, origins, report;
   Settings settings;
   PictureOptions picture;
 };
@@ -59,28 +59,24 @@ const Engine& engineOf(const Options& options, Settings& settings) {
   return method == "blocks" ? engineNamed("blocks") : engine;
 }
 
-/// Refuses outputs that would overwrite each other, or what they are made from.
-void requireDistinct(const Options& options) {
-  std::vector<std::string> paths = options.examples;
-  paths.insert(paths.end(), options.with.begin(), options.with.end());
+/// Refuses outputs that would overwrite each other, or what they are made from, and folders that
+/// cannot be written.
+void checkOutputs(const Options& options, Form form, int lods) {
+  using Paths = std::vector<std::filesystem::path>;
+  for (const std::string& output : options.outputs) requireOutput(output, outputEndings(form));
+  if (!options.preview.empty()) requireOutput(options.preview, ".png");
+  if (!options.stats.empty()) requireOutput(options.stats, ".json");
+  if (!options.origins.empty()) requireOutput(options.origins, ".vdb");
+  if (!options.report.empty()) requireOutput(options.report, ".html");
+  Paths inputs(options.examples.begin(), options.examples.end());
+  inputs.insert(inputs.end(), options.with.begin(), options.with.end());
   for (const char* key : {"keep", "guide", "mask"})
-    if (options.settings.has(key)) paths.push_back(options.settings.text(key));
-  const auto whole = [](const std::string& path) {
-    std::error_code error;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
-  };
-  const auto same = [&](const std::string& a, const std::string& b) {
-    return whole(a) == whole(b);
-  };
-  for (const std::string* output :
-       {&options.output, &options.preview, &options.stats, &options.origins, &options.report}) {
-    if (output->empty()) continue;
-    for (const std::string& path : paths) {
-      if (same(path, *output))
-        throw InputError(*output + ": is read or written already; choose another name");
-    }
-    paths.push_back(*output);
-  }
+    if (options.settings.has(key)) inputs.emplace_back(options.settings.text(key));
+  Paths files = filesOf(options.outputs, lods);
+  for (const std::string* file :
+       {&options.preview, &options.stats, &options.origins, &options.report})
+    if (!file->empty()) files.emplace_back(*file);
+  requireDistinct(files, inputs);
 }
 
 Plan planOf(const Options& options) {
@@ -97,11 +93,8 @@ Plan planOf(const Options& options) {
   const Form form = plan.engine->form();
   checkSettings(*plan.engine, settings);
 
-  requireOutput(options.output, outputEndings(form));
-  if (!options.preview.empty()) requireOutput(options.preview, ".png");
-  if (!options.stats.empty()) requireOutput(options.stats, ".json");
-  if (!options.origins.empty()) requireOutput(options.origins, ".vdb");
-  if (!options.report.empty()) requireOutput(options.report, ".html");
+  surfaceSettings(form).apply(settings, plan.surface);
+  checkOutputs(options, form, plan.surface.lods);
   if (!options.origins.empty() && form != Form::Field)
     throw InputError("--origins: only results of distance fields have them; leave it out");
   if (!options.report.empty() && settings.has("frames"))
@@ -110,9 +103,7 @@ Plan planOf(const Options& options) {
   for (const auto* paths : {&options.examples, &options.with})
     plan.sources.insert(plan.sources.end(), paths->begin(), paths->end());
   plan.reading = readingOf(settings, form);
-  surfaceSettings(form).apply(settings, plan.surface);
   plan.output = {plan.reading.mesh, plan.surface.instances, plan.picture, {}};
-  requireDistinct(options);
   if (plan.sources.size() > 1 && !plan.engine->mixes()) {
     throw InputError("the engine " + std::string(plan.engine->name()) + " takes one example, not " +
                      std::to_string(plan.sources.size()));
@@ -134,7 +125,8 @@ struct Times {
 void checkExtent(const Options& options, const Plan& plan, std::span<const Example> examples) {
   const Vec3i size = plan.engine->extentOf(examples, plan.request);
   const int frames = plan.request.settings.has("frames") ? 1 : 0;
-  requireOutputFits(options.output, plan.engine->form(), size, frames, plan.surface.instances);
+  for (const std::string& output : options.outputs)
+    requireOutputFits(output, plan.engine->form(), size, frames, plan.surface.instances);
   requireSurface(plan.surface, examples);
 }
 
@@ -167,9 +159,10 @@ Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& te
 /// The surface, where anything that is to be written takes it.
 std::optional<Surface> surfaceFor(const Options& options, const Plan& plan, const Result& result,
                                   std::span<const Example> examples, const Progress& progress) {
-  if (!needsSurface(options.output, result, plan.output) && options.preview.empty() &&
-      options.report.empty())
-    return std::nullopt;
+  const bool needed = std::ranges::any_of(options.outputs, [&](const std::string& output) {
+    return needsSurface(output, result, plan.output);
+  });
+  if (!needed && options.preview.empty() && options.report.empty()) return std::nullopt;
   return realize(result, examples, plan.surface, progress);
 }
 
@@ -201,7 +194,8 @@ void writeReport(const Options& options, const Plan& plan, std::span<const Examp
 void writeStats(const Options& options, const Result& result, const std::optional<Surface>& surface,
                 const Times& times, const Terminal& terminal) {
   Json stats = {{"example", options.examples.front()},
-                {"output", options.output},
+                {"output", options.outputs.front()},
+                {"outputs", options.outputs},
                 {"engine", result.engine},
                 {"seed", result.seed},
                 {"outcome", outcomeName(result.outcome)}};
@@ -223,15 +217,24 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
            Terminal& terminal) {
   const Progress& progress = terminal.progress();
   plan.output.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path, "frame"); };
-  const Written written =
-      writeResult(options.output, result, examples, surface ? &*surface : nullptr, plan.output,
-                  progress.part(0.85, 0.9));
-  if (result.laterFrames.empty() || lowerExtension(options.output) == ".gif") {
-    terminal.wrote(written.label, options.output, written.text);
-  } else {
-    terminal.say(written.label, written.text);
+  const auto say = [&](const Written& written) {
+    if (result.laterFrames.empty() || lowerExtension(written.path) == ".gif") {
+      terminal.wrote(written.label, written.path, written.text);
+    } else {
+      terminal.say(written.label, written.text);
+    }
+    for (const std::string& warning : written.warnings) terminal.warn(warning);
+  };
+  const auto count = static_cast<double>(options.outputs.size());
+  for (std::size_t n = 0; n < options.outputs.size(); ++n) {
+    const Progress part = progress.part(0.85 + 0.05 * static_cast<double>(n) / count,
+                                        0.85 + 0.05 * static_cast<double>(n + 1) / count);
+    const std::string& output = options.outputs[n];
+    say(writeResult(output, result, examples, surface ? &*surface : nullptr, plan.output,
+                    part.part(0, 0.8)));
+    if (!surface) continue;
+    for (const Written& lod : writeLods(output, *surface, plan.output, part.part(0.8, 1))) say(lod);
   }
-  for (const std::string& warning : written.warnings) terminal.warn(warning);
   if (!options.origins.empty()) {
     writeOriginsVdb(options.origins, result.origins, result.field());
     terminal.wrote("origins", options.origins, options.origins);
@@ -307,10 +310,12 @@ Command addSynthCommand(CLI::App& app) {
                    "that changes over time")
       ->required();
   command
-      ->add_option("-o,--output", options->output,
-                   std::string("what to write; its ending chooses the format: of distances ") +
+      ->add_option("-o,--output", options->outputs,
+                   std::string("what to write (may be repeated); its ending chooses the format: of "
+                               "distances ") +
                        outputEndings(Form::Field) + ", of labels " + outputEndings(Form::Labels))
-      ->required();
+      ->required()
+      ->allow_extra_args(false);
   std::string names;
   for (const Engine* engine : engines()) names += "|" + std::string(engine->name());
   command

@@ -63,7 +63,7 @@ TriangleMesh surfaceOf(const Measured& measured, const Example& example, const P
   if (measured.origins.count() == 0) {
     Example alone;
     alone.data = measured.field;
-    return contourOf(alone, progress);
+    return contourOf(alone, {}, progress).mesh;
   }
   Result result;
   result.data = measured.field;

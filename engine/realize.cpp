@@ -3,6 +3,7 @@
 
 #include "engine/realize.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/error.h"
@@ -33,7 +34,7 @@ Surface copied(const Result& result, std::span<const Example> examples, const Pr
   const Example& example = examples.front();
   CopiedTriangles made =
       copyTriangles(result.field(), result.origins, *example.mesh, example.field(), {}, progress);
-  return {std::move(made.mesh), made.health, 0};
+  return {std::move(made.mesh), made.health, 0, {}};
 }
 
 Surface contoured(const Result& result, std::span<const Example> examples,
@@ -44,9 +45,21 @@ Surface contoured(const Result& result, std::span<const Example> examples,
   options.contour.wraps = result.periodic;
   options.simplify = surface.simplify;
   options.triangles = surface.triangles;
+  options.lods = surface.lods;
+  options.appearance.sources = surface.source;
   Reconstruction made =
       reconstructSurface(result.field(), result.origins, views, options, progress);
-  return {std::move(made.mesh), made.health, made.contoured};
+  return {std::move(made.mesh), made.health, made.contoured, std::move(made.lods)};
+}
+
+/// Gives a result the name of its example's object, or that of its example's file.
+void nameAfter(const Example& example, TriangleMesh& mesh) {
+  if (example.mesh && !example.mesh->name.empty()) {
+    mesh.name = example.mesh->name;
+    mesh.dataName = example.mesh->dataName;
+  } else {
+    mesh.name = example.source.path().stem().string();
+  }
 }
 
 TriangleMesh boxesOf(const LabelGrid& grid, bool closedLabels, const std::string& what,
@@ -72,6 +85,13 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
       settingRow<O>("triangles", &O::triangles,
                     "merge triangles of the contour until there are no more than this (0: do not)",
                     kFromZero),
+      settingRow<O>("lods", &O::lods,
+                    "also write so many coarser copies (NAME_lod1, ...), each with a quarter of "
+                    "the triangles of the one before",
+                    {0, 8}),
+      settingRow<O>("source", &O::source,
+                    "write for each vertex the triangle of the example that it came from, and the "
+                    "place there (.glb, .gltf)"),
       settingRow<O>(
           "detail", &O::detail,
           "re-make the result at this many times the resolution, with the example's finer "
@@ -83,9 +103,17 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
 }
 
 void requireSurface(const SurfaceOptions& options, std::span<const Example> examples) {
+  const bool allMeshes = std::ranges::all_of(
+      examples, [](const Example& example) { return example.mesh.has_value(); });
+  if (options.source && !allMeshes)
+    throw InputError("`source`: an example has no triangles that could be named; leave it out");
   if (options.surface == SurfaceKind::Contour) return;
-  if (options.simplify > 0 || options.triangles > 0)
-    throw InputError("`simplify`, `triangles`: only a contour is simplified, not copied triangles");
+  if (options.simplify > 0 || options.triangles > 0 || options.lods > 0) {
+    throw InputError(
+        "`simplify`, `triangles`, `lods`: only a contour is simplified, not copied triangles");
+  }
+  if (options.source)
+    throw InputError("`source`: only a contour says where it came from, not copied triangles");
   if (examples.size() > 1)
     throw InputError("`surface` copy: there are several examples; use contour");
   if (!examples.front().mesh)
@@ -97,13 +125,17 @@ Surface realize(const Result& result, std::span<const Example> examples,
   if (result.outcome != Outcome::Complete)
     throw InputError("there is no result to make a surface of: " + result.why);
   requireSurface(options, examples);
-  if (result.form() == Form::Field) {
-    return options.surface == SurfaceKind::Copy ? copied(result, examples, progress)
-                                                : contoured(result, examples, options, progress);
-  }
   Surface surface;
-  surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));
-  surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
+  if (result.form() == Form::Labels) {
+    surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));
+    surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
+  } else if (options.surface == SurfaceKind::Copy) {
+    surface = copied(result, examples, progress);
+  } else {
+    surface = contoured(result, examples, options, progress);
+  }
+  nameAfter(examples.front(), surface.mesh);
+  for (CoarserSurface& lod : surface.lods) nameAfter(examples.front(), lod.mesh);
   return surface;
 }
 
@@ -122,8 +154,18 @@ TriangleMesh realizeLabels(const LabelGrid& grid, const Example& example,
   return boxesOf(grid, true, "the result has no geometry", progress);
 }
 
-TriangleMesh contourOf(const Example& example, const Progress& progress) {
-  return fieldToMesh(example.field(), {.wraps = example.continues}, progress);
+Surface contourOf(const Example& example, const SurfaceOptions& options, const Progress& progress) {
+  ReconstructOptions contour;
+  contour.contour.wraps = example.continues;
+  contour.simplify = options.simplify;
+  contour.triangles = options.triangles;
+  contour.lods = options.lods;
+  const ReconstructExample bare{example.field()};
+  Reconstruction made = reconstructSurface(example.field(), {}, bare, contour, progress);
+  Surface surface{std::move(made.mesh), made.health, made.contoured, std::move(made.lods)};
+  nameAfter(example, surface.mesh);
+  for (CoarserSurface& lod : surface.lods) nameAfter(example, lod.mesh);
+  return surface;
 }
 
 TriangleMesh pictured(const Example& example, const Progress& progress) {
