@@ -4,7 +4,10 @@
 // exemplar mesh: a signed distance grid, or a grid of labels, as triangles.
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "apps/command.h"
 #include "core/error.h"
@@ -20,14 +23,23 @@ namespace exemplar {
 namespace {
 
 struct Options {
-  std::string source, output, origins, example;
-  std::vector<std::string> with;
+  std::string source, origins, example;
+  std::vector<std::string> outputs, with;
   Settings settings;
 };
 
+/// Refuses what cannot be written, and what would overwrite another file of this run.
+void checkOutputs(const Options& options, int lods) {
+  for (const std::string& output : options.outputs) requireOutput(output, kMeshEndings);
+  std::vector<std::filesystem::path> inputs(options.with.begin(), options.with.end());
+  for (const std::string* input : {&options.source, &options.origins, &options.example})
+    if (!input->empty()) inputs.emplace_back(*input);
+  requireDistinct(filesOf(options.outputs, lods), inputs);
+}
+
 /// The surface of a synthesis' field with what its origins say of the examples.
-TriangleMesh dressed(const Options& options, const ReadOptions& reading, int detail,
-                     const Progress& progress) {
+Surface dressed(const Options& options, const ReadOptions& reading, const SurfaceOptions& surface,
+                const Progress& progress) {
   std::vector<Source> sources{options.example};
   sources.insert(sources.end(), options.with.begin(), options.with.end());
   ReadOptions asMade = reading;
@@ -35,11 +47,11 @@ TriangleMesh dressed(const Options& options, const ReadOptions& reading, int det
     asMade.wanted = Extent{.scale = scale, .size = {}};
   std::vector<Example> examples = readExamples(sources, asMade, progress.part(0, 0.3));
   Result result = readResult(options.source, options.origins, examples);
-  if (detail > 1) {
-    examples = refined(examples, detail, progress.part(0.3, 0.5));
-    result = withDetail(result, examples, detail, progress.part(0.5, 0.6));
+  if (surface.detail > 1) {
+    examples = refined(examples, surface.detail, progress.part(0.3, 0.5));
+    result = withDetail(result, examples, surface.detail, progress.part(0.5, 0.6));
   }
-  return realize(result, examples, {}, progress.part(0.6, 0.9)).mesh;
+  return realize(result, examples, surface, progress.part(0.6, 0.9));
 }
 
 /// The boxes of a grid of labels.
@@ -53,17 +65,45 @@ TriangleMesh boxes(const Options& options, Terminal& terminal) {
   return mesh;
 }
 
-TriangleMesh meshOf(const Options& options, const ReadOptions& reading, Terminal& terminal) {
+Surface surfaceOf(const Options& options, const ReadOptions& reading, const SurfaceOptions& surface,
+                  Terminal& terminal) {
   const Progress& progress = terminal.progress();
-  if (sourceKind(options.source) == SourceKind::Labels) return boxes(options, terminal);
-  SurfaceOptions surface;
-  surfaceSettings(Form::Field).apply(options.settings, surface);
-  if (!options.origins.empty()) return dressed(options, reading, surface.detail, progress);
+  if (sourceKind(options.source) == SourceKind::Labels) {
+    if (surface.lods > 0 || surface.simplify > 0 || surface.triangles > 0) {
+      throw InputError(options.source +
+                       ": labels become boxes, which are not simplified; leave out `lods`, "
+                       "`simplify` and `triangles`");
+    }
+    Surface made{boxes(options, terminal), {}, 0, {}};
+    made.health = meshHealth(made.mesh);
+    return made;
+  }
+  if (!options.origins.empty()) return dressed(options, reading, surface, progress);
   if (surface.detail > 1) throw InputError("`detail` needs --origins and --example");
+  if (surface.source) throw InputError("`source` needs --origins and --example");
   const Example example = readExample(options.source, reading, progress.part(0, 0.4));
   for (const std::string& warning : example.warnings) terminal.warn(warning);
   terminal.say("example", example.description);
-  return contourOf(example, progress.part(0.4, 0.9));
+  return contourOf(example, surface, progress.part(0.4, 0.9));
+}
+
+/// Writes a surface and its coarser copies to all outputs.
+void write(const Options& options, const ReadOptions& reading, const Surface& surface,
+           Terminal& terminal) {
+  OutputOptions output;
+  output.mesh = reading.mesh;
+  Warnings warnings;
+  output.mesh.warnings = &warnings;
+  for (const std::string& path : options.outputs) {
+    terminal.progress().report("writing " + path, 0.9);
+    writeMesh(path, surface.mesh, output.mesh);
+    terminal.wrote("mesh", path, path + ": " + readableHealth(surface.health));
+    for (const Written& lod : writeLods(path, surface, output)) {
+      terminal.wrote(lod.label, lod.path, lod.text);
+      warnings.insert(warnings.end(), lod.warnings.begin(), lod.warnings.end());
+    }
+  }
+  for (const std::string& warning : warnings) terminal.warn(warning);
 }
 
 }  // namespace
@@ -77,9 +117,10 @@ Command addMeshCommand(CLI::App& app) {
                    ".vdb, or any other example; labels (.txt .vox) become boxes")
       ->required();
   command
-      ->add_option("-o,--output", options->output,
-                   "the mesh to write: " + std::string(kMeshEndings))
-      ->required();
+      ->add_option("-o,--output", options->outputs,
+                   "the mesh to write (may be repeated): " + std::string(kMeshEndings))
+      ->required()
+      ->allow_extra_args(false);
   command->add_option("--origins", options->origins,
                       "where each sample of the volume came from (.vdb, by synth --origins): takes "
                       "materials, colors and detail from --example");
@@ -90,20 +131,23 @@ Command addMeshCommand(CLI::App& app) {
       ->allow_extra_args(false);
   SettingOptions rows;
   for (const Setting& setting : surfaceSettings(Form::Field).settings())
-    if (setting.key == "detail") rows.add("Surface", "", {&setting, 1});
+    if (setting.key != "surface") rows.add("Surface", "", {&setting, 1});
   rows.install(*command, options->settings);
   addReadingOptions(*command, Form::Field, options->settings);
 
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
-            requireOutput(options->output, kMeshEndings);
             if (options->origins.empty() != options->example.empty())
               throw InputError("--origins and --example go together");
             const ReadOptions reading = readingOf(options->settings, Form::Field);
-            const TriangleMesh mesh = meshOf(*options, reading, terminal);
-            terminal.progress().report("writing " + options->output, 0.9);
-            writeMesh(options->output, mesh, reading.mesh);
-            terminal.wrote("mesh", options->output,
-                           options->output + ": " + readableHealth(meshHealth(mesh)));
+            SurfaceOptions surface;
+            surfaceSettings(Form::Field).apply(options->settings, surface);
+            checkOutputs(*options, surface.lods);
+            const Surface made = surfaceOf(*options, reading, surface, terminal);
+            if (made.contoured > made.health.triangles) {
+              terminal.say("simplified", withThousands(made.contoured) + " triangles to " +
+                                             withThousands(made.health.triangles));
+            }
+            write(*options, reading, made, terminal);
           }};
 }
 

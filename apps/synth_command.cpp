@@ -28,8 +28,8 @@ namespace exemplar {
 namespace {
 
 struct Options {
-  std::vector<std::string> examples, with;
-  std::string output, engine, preview, stats, origins, report, layers;
+  std::vector<std::string> examples, with, outputs;
+  std::string engine, preview, stats, origins, report, layers;
   Settings settings;
   PictureOptions picture;
 };
@@ -59,28 +59,31 @@ const Engine& engineOf(const Options& options, Settings& settings) {
   return method == "blocks" ? engineNamed("blocks") : engine;
 }
 
-/// Refuses outputs that would overwrite each other, or what they are made from.
-void requireDistinct(const Options& options) {
-  std::vector<std::string> paths = options.examples;
-  paths.insert(paths.end(), options.with.begin(), options.with.end());
+/// Where the example's layers are written beside the result's: `l.png`, `l_example.png`.
+std::filesystem::path exampleLayersPath(const std::filesystem::path& layers) {
+  return layers.parent_path() / (layers.stem().string() + "_example" + layers.extension().string());
+}
+
+/// Refuses outputs that would overwrite each other, or what they are made from, and folders that
+/// cannot be written.
+void checkOutputs(const Options& options, Form form, int lods) {
+  using Paths = std::vector<std::filesystem::path>;
+  for (const std::string& output : options.outputs) requireOutput(output, outputEndings(form));
+  if (!options.preview.empty()) requireOutput(options.preview, ".png");
+  if (!options.stats.empty()) requireOutput(options.stats, ".json");
+  if (!options.origins.empty()) requireOutput(options.origins, ".vdb");
+  if (!options.report.empty()) requireOutput(options.report, ".html");
+  if (!options.layers.empty()) requireOutput(options.layers, ".png");
+  Paths inputs(options.examples.begin(), options.examples.end());
+  inputs.insert(inputs.end(), options.with.begin(), options.with.end());
   for (const char* key : {"keep", "guide", "mask"})
-    if (options.settings.has(key)) paths.push_back(options.settings.text(key));
-  const auto whole = [](const std::string& path) {
-    std::error_code error;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
-  };
-  const auto same = [&](const std::string& a, const std::string& b) {
-    return whole(a) == whole(b);
-  };
-  for (const std::string* output : {&options.output, &options.preview, &options.stats,
-                                    &options.origins, &options.report, &options.layers}) {
-    if (output->empty()) continue;
-    for (const std::string& path : paths) {
-      if (same(path, *output))
-        throw InputError(*output + ": is read or written already; choose another name");
-    }
-    paths.push_back(*output);
-  }
+    if (options.settings.has(key)) inputs.emplace_back(options.settings.text(key));
+  Paths files = filesOf(options.outputs, lods);
+  for (const std::string* file :
+       {&options.preview, &options.stats, &options.origins, &options.report, &options.layers})
+    if (!file->empty()) files.emplace_back(*file);
+  if (!options.layers.empty()) files.push_back(exampleLayersPath(options.layers));
+  requireDistinct(files, inputs);
 }
 
 Plan planOf(const Options& options) {
@@ -97,16 +100,10 @@ Plan planOf(const Options& options) {
   const Form form = plan.engine->form();
   checkSettings(*plan.engine, settings);
 
-  requireOutput(options.output, outputEndings(form));
-  if (!options.preview.empty()) requireOutput(options.preview, ".png");
-  if (!options.stats.empty()) requireOutput(options.stats, ".json");
-  if (!options.origins.empty()) requireOutput(options.origins, ".vdb");
-  if (!options.report.empty()) requireOutput(options.report, ".html");
-  if (!options.layers.empty()) {
-    requireOutput(options.layers, ".png");
-    if (form != Form::Map)
-      throw InputError("--write-layers: only the engine layered has layers; leave it out");
-  }
+  surfaceSettings(form).apply(settings, plan.surface);
+  checkOutputs(options, form, plan.surface.lods);
+  if (!options.layers.empty() && form != Form::Map)
+    throw InputError("--write-layers: only the engine layered has layers; leave it out");
   if (!options.report.empty() && form == Form::Map)
     throw InputError("--report: a page shows surfaces, and a map has none; leave it out");
   if (!options.origins.empty() && form != Form::Field)
@@ -117,10 +114,9 @@ Plan planOf(const Options& options) {
   for (const auto* paths : {&options.examples, &options.with})
     plan.sources.insert(plan.sources.end(), paths->begin(), paths->end());
   plan.reading = readingOf(settings, form);
-  surfaceSettings(form).apply(settings, plan.surface);
   plan.output = {plan.reading.mesh, plan.surface.instances, plan.picture, {}};
-  requireDistinct(options);
-  requireOutputKind(options.output, settings.has("frames"), plan.surface.instances);
+  for (const std::string& output : options.outputs)
+    requireOutputKind(output, settings.has("frames"), plan.surface.instances);
   requireSurface(plan.surface, plan.sources.size());
   // What is left is asked of the engine.
   for (const auto& table : {readingSettings(form).settings(), surfaceSettings(form).settings()})
@@ -141,7 +137,8 @@ struct Times {
 /// Refuses what cannot be written before it is made.
 void checkExtent(const Options& options, const Plan& plan, std::span<const Example> examples) {
   const Vec3i size = plan.engine->extentOf(examples, plan.request);
-  requireOutputFits(options.output, plan.engine->form(), size);
+  for (const std::string& output : options.outputs)
+    requireOutputFits(output, plan.engine->form(), size);
   requireSurface(plan.surface, examples);
 }
 
@@ -175,9 +172,10 @@ Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& te
 std::optional<Surface> surfaceFor(const Options& options, const Plan& plan, const Result& result,
                                   std::span<const Example> examples, const Progress& progress) {
   if (result.form() == Form::Map) return std::nullopt;
-  if (!needsSurface(options.output, result, plan.output) && options.preview.empty() &&
-      options.report.empty())
-    return std::nullopt;
+  const bool needed = std::ranges::any_of(options.outputs, [&](const std::string& output) {
+    return needsSurface(output, result, plan.output);
+  });
+  if (!needed && options.preview.empty() && options.report.empty()) return std::nullopt;
   return realize(result, examples, plan.surface, progress);
 }
 
@@ -223,7 +221,8 @@ Vec3d scaleOf(const Plan& plan, const Result& result, std::span<const Example> e
 void writeStats(const Options& options, const Result& result, const std::optional<Surface>& surface,
                 const Times& times, const Terminal& terminal) {
   Json stats = {{"example", options.examples.front()},
-                {"output", options.output},
+                {"output", options.outputs.front()},
+                {"outputs", options.outputs},
                 {"engine", result.engine},
                 {"seed", result.seed},
                 {"outcome", outcomeName(result.outcome)}};
@@ -243,26 +242,30 @@ void writeStats(const Options& options, const Result& result, const std::optiona
   writeFile(options.stats, stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-/// Where the example's layers are written beside the result's: `l.png`, `l_example.png`.
-std::filesystem::path exampleLayersPath(const std::filesystem::path& layers) {
-  return layers.parent_path() / (layers.stem().string() + "_example" + layers.extension().string());
-}
-
 /// The result first; what goes with it must not cost it.
 void write(const Options& options, Plan plan, std::span<const Example> examples,
            const Result& result, const std::optional<Surface>& surface, const Times& times,
            Terminal& terminal) {
   const Progress& progress = terminal.progress();
   plan.output.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path, "frame"); };
-  const Written written =
-      writeResult(options.output, result, examples, surface ? &*surface : nullptr, plan.output,
-                  progress.part(0.85, 0.9));
-  if (result.laterFrames.empty() || lowerExtension(options.output) == ".gif") {
-    terminal.wrote(written.label, options.output, written.text);
-  } else {
-    terminal.say(written.label, written.text);
+  const auto say = [&](const Written& written) {
+    if (result.laterFrames.empty() || lowerExtension(written.path) == ".gif") {
+      terminal.wrote(written.label, written.path, written.text);
+    } else {
+      terminal.say(written.label, written.text);
+    }
+    for (const std::string& warning : written.warnings) terminal.warn(warning);
+  };
+  const auto count = static_cast<double>(options.outputs.size());
+  for (std::size_t n = 0; n < options.outputs.size(); ++n) {
+    const Progress part = progress.part(0.85 + 0.05 * static_cast<double>(n) / count,
+                                        0.85 + 0.05 * static_cast<double>(n + 1) / count);
+    const std::string& output = options.outputs[n];
+    say(writeResult(output, result, examples, surface ? &*surface : nullptr, plan.output,
+                    part.part(0, 0.8)));
+    if (!surface) continue;
+    for (const Written& lod : writeLods(output, *surface, plan.output, part.part(0.8, 1))) say(lod);
   }
-  for (const std::string& warning : written.warnings) terminal.warn(warning);
   if (!options.origins.empty()) {
     writeOriginsVdb(options.origins, result.origins, result.field(),
                     {.turn = examples.front().turn, .scale = scaleOf(plan, result, examples)});
@@ -353,12 +356,14 @@ Command addSynthCommand(CLI::App& app) {
                    "that changes over time")
       ->required();
   command
-      ->add_option("-o,--output", options->output,
-                   std::string("what to write; its ending chooses the format: of distances ") +
+      ->add_option("-o,--output", options->outputs,
+                   std::string("what to write (may be repeated); its ending chooses the format: of "
+                               "distances ") +
                        outputEndings(Form::Field) + ", of labels " + outputEndings(Form::Labels) +
                        ", of polygons " + outputEndings(Form::Polygons) + ", of maps " +
                        outputEndings(Form::Map))
-      ->required();
+      ->required()
+      ->allow_extra_args(false);
   std::string names;
   for (const Engine* engine : engines()) names += "|" + std::string(engine->name());
   command

@@ -93,6 +93,16 @@ class TextScanner {
     cursor_ = lineEnd_;
     return {begin, static_cast<std::size_t>(end - begin)};
   }
+  /// The same, without moving; of a line that is continued as far as it goes.
+  std::string_view peekRest() {
+    const char* const here = cursor_;
+    while (cursor_ != lineEnd_ && isBlank(*cursor_)) ++cursor_;
+    const char* const begin = cursor_;
+    const char* end = lineEnd_;
+    while (end != begin && isBlank(end[-1])) --end;
+    cursor_ = here;
+    return {begin, static_cast<std::size_t>(end - begin)};
+  }
   /// Takes the next character when it is `c`, with no blanks skipped.
   bool take(char c) {
     if (cursor_ == lineEnd_ || *cursor_ != c) return false;

@@ -94,7 +94,7 @@ TriangleMesh surfaceOf(const Measured& measured, const Example& example, const P
     Example alone;
     alone.data = measured.field;
     alone.turn = example.turn;
-    return contourOf(alone, progress);
+    return contourOf(alone, {}, progress).mesh;
   }
   Result result;
   result.data = measured.field;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <utility>
 
 #include "core/error.h"
@@ -68,20 +69,22 @@ Written writeFrames(const fs::path& path, const Result& result, const Example& e
     for (const LabelGrid* grid : frames)
       images.push_back(frameImage(*grid, example, options.picture, share(images.size())));
     writeGif(path, images);
-    return {"written", path.string() + ": " + std::to_string(frames.size()) + " frames", {}};
+    return {path, "written", path.string() + ": " + std::to_string(frames.size()) + " frames", {}};
   }
   for (std::size_t n = 0; n < frames.size(); ++n) {
     writeLabels(framePath(path, n), *frames[n], example, options, share(n));
     if (options.wrote) options.wrote(framePath(path, n));
   }
-  return {"written",
+  return {path,
+          "written",
           framePath(path, 0).string() + " to " + framePath(path, frames.size() - 1).string(),
           {}};
 }
 
 /// The picture, and those of its further channels beside it: `rust.png`, `rust_normal.png`.
 Written writeMap(const fs::path& path, const Map& map, const OutputOptions& options) {
-  Written written{"picture",
+  Written written{path,
+                  "picture",
                   path.string() + ": " + std::to_string(map.width()) + " x " +
                       std::to_string(map.height()) + " pixels",
                   {}};
@@ -100,7 +103,7 @@ Written writeMap(const fs::path& path, const Map& map, const OutputOptions& opti
 
 Written writeField(const fs::path& path, const Result& result, const Example& example,
                    const Progress& progress) {
-  Written written{"field", path.string(), {}};
+  Written written{path, "field", path.string(), {}};
   if (isHeightMapFile(path)) {
     written.label = "heights";
     HeightMap map = sdfToHeightMap(result.field(), progress.part(0, 0.5));
@@ -123,7 +126,7 @@ Written writeTriangles(const fs::path& path, const TriangleMesh& mesh,
                        std::span<const std::uint32_t> faces, const MeshHealth& health,
                        const char* label, const MeshFileOptions& options,
                        const Progress& progress) {
-  Written written{label, path.string() + ": " + readableHealth(health), {}};
+  Written written{path, label, path.string() + ": " + readableHealth(health), {}};
   MeshFileOptions file = options;
   file.warnings = &written.warnings;
   writePolygons(path, mesh, faces, file, progress);
@@ -150,6 +153,37 @@ void requireOutput(const fs::path& path, const std::string& endings) {
   if (ending.empty() || (" " + endings + " ").find(" " + ending + " ") == std::string::npos)
     throw InputError(path.string() + ": cannot write this kind of file; use one of " + endings);
   const OutputFile probe(path);
+}
+
+fs::path lodPath(const fs::path& path, int n) {
+  return path.parent_path() /
+         (path.stem().string() + "_lod" + std::to_string(n) + path.extension().string());
+}
+
+std::vector<fs::path> filesOf(std::span<const std::string> outputs, int lods) {
+  std::vector<fs::path> files;
+  const auto add = [&](const fs::path& path) {
+    files.push_back(path);
+    if (endsWith(path, ".obj")) files.push_back(fs::path(path).replace_extension(".mtl"));
+  };
+  for (const std::string& output : outputs) {
+    add(output);
+    for (int n = 1; n <= lods && isMeshFile(output); ++n) add(lodPath(output, n));
+  }
+  return files;
+}
+
+void requireDistinct(std::span<const fs::path> files, std::span<const fs::path> inputs) {
+  const auto whole = [](const fs::path& path) {
+    std::error_code error;
+    return fs::weakly_canonical(fs::absolute(path, error), error);
+  };
+  std::set<fs::path> taken;
+  for (const fs::path& path : inputs) taken.insert(whole(path));
+  for (const fs::path& path : files) {
+    if (!taken.insert(whole(path)).second)
+      throw InputError(path.string() + ": is read or written already; choose another name");
+  }
 }
 
 void requireOutputKind(const fs::path& path, bool hasFrames, bool instances) {
@@ -188,6 +222,20 @@ Written writeResult(const fs::path& path, const Result& result, std::span<const 
   return writeLabels(path, result.labels(), example, options, progress);
 }
 
+std::vector<Written> writeLods(const fs::path& path, const Surface& surface,
+                               const OutputOptions& options, const Progress& progress) {
+  std::vector<Written> written;
+  if (!isMeshFile(path)) return written;
+  const auto count = static_cast<double>(surface.lods.size());
+  for (const CoarserSurface& lod : surface.lods) {
+    const auto n = static_cast<double>(written.size());
+    written.push_back(writeTriangles(lodPath(path, static_cast<int>(n) + 1), lod.mesh, lod.health,
+                                     "coarser", options.mesh,
+                                     progress.part(n / count, (n + 1) / count)));
+  }
+  return written;
+}
+
 Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& example,
                     const OutputOptions& options, const Progress& progress) {
   const auto* pieces = std::get_if<ModelPieces>(&example.content);
@@ -195,7 +243,8 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
     if (!pieces || !endsWith(path, ".glb"))
       throw InputError("`instances`: only a .glb of model pieces (of a mesh) has instances");
     const std::size_t placed = writePieceInstances(path, grid, *pieces, progress);
-    return {"written",
+    return {path,
+            "written",
             path.string() + ": " + withThousands(static_cast<long long>(placed)) + " instances",
             {}};
   }
@@ -209,7 +258,8 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
     const PlacedBlocks placed =
         placeBlocks(labeled->field, labeled->blocks, grid.cells, progress.part(0, 0.5));
     writeVdb(path, placed.field, {}, example.turn, progress.part(0.5, 1));
-    return {"written",
+    return {path,
+            "written",
             path.string() + ": distances, " + readableSize(placed.field.size(), "samples"),
             {}};
   }
@@ -219,7 +269,7 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
   } else {
     writeLabels(path, grid, progress);
   }
-  return {"written", path.string() + ": " + readableSize(grid.size(), "cells"), {}};
+  return {path, "written", path.string() + ": " + readableSize(grid.size(), "cells"), {}};
 }
 
 }  // namespace exemplar

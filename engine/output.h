@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
 #include "core/warnings.h"
@@ -30,6 +31,16 @@ inline constexpr const char* kLabelOutputEndings =
 /// Refuses an output whose ending is none of `endings` (".obj .ply"), or whose folder does not
 /// exist or cannot be written, before any work is done.
 void requireOutput(const std::filesystem::path& path, const std::string& endings);
+/// Where the nth coarser copy of a mesh goes, from 1: `wall.glb` becomes `wall_lod1.glb`.
+std::filesystem::path lodPath(const std::filesystem::path& path, int n);
+/// All files with names of their own that writing to the paths gives: with `lods` coarser copies of
+/// the meshes, and the material library of an `.obj`.
+std::vector<std::filesystem::path> filesOf(std::span<const std::string> outputs, int lods);
+/// Refuses files that would overwrite one another, or one of the `inputs`; each of `files` is one
+/// that will be written.
+void requireDistinct(std::span<const std::filesystem::path> files,
+                     std::span<const std::filesystem::path> inputs);
+
 /// Refuses an output that cannot hold instances, or that needs frames where the result has none.
 void requireOutputKind(const std::filesystem::path& path, bool hasFrames, bool instances);
 /// Refuses an output that cannot hold a result of `size`: a picture has one layer.
@@ -49,6 +60,7 @@ bool needsSurface(const std::filesystem::path& path, const Result& result,
 
 /// A line for people about what was written.
 struct Written {
+  std::filesystem::path path;
   std::string label;  ///< "mesh", "field", "heights", "written"
   std::string text;   ///< "out.glb: 12,345 triangles, closed, ..."
   Warnings warnings;  ///< what the format cannot hold
@@ -60,6 +72,10 @@ struct Written {
 Written writeResult(const std::filesystem::path& path, const Result& result,
                     std::span<const Example> examples, const Surface* surface,
                     const OutputOptions& options = {}, const Progress& progress = {});
+
+/// Writes the coarser copies of a surface beside a mesh at `path`.
+std::vector<Written> writeLods(const std::filesystem::path& path, const Surface& surface,
+                               const OutputOptions& options = {}, const Progress& progress = {});
 
 /// Writes a grid of an example's labels in the format of the path's ending.
 Written writeLabels(const std::filesystem::path& path, const LabelGrid& grid,

@@ -3,6 +3,7 @@
 
 #include "engine/realize.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/error.h"
@@ -45,9 +46,21 @@ Surface contoured(const Result& result, std::span<const Example> examples,
   options.contour.wraps = result.periodic;
   options.simplify = surface.simplify;
   options.triangles = surface.triangles;
+  options.lods = surface.lods;
+  options.appearance.sources = surface.source;
   Reconstruction made =
       reconstructSurface(result.field(), result.origins, views, options, progress);
-  return {std::move(made.mesh), made.health, made.contoured, {}};
+  return {std::move(made.mesh), made.health, made.contoured, std::move(made.lods), {}};
+}
+
+/// Gives a result the name of its example's object, or that of its example's file.
+void nameAfter(const Example& example, TriangleMesh& mesh) {
+  if (example.mesh && !example.mesh->name.empty()) {
+    mesh.name = example.mesh->name;
+    mesh.dataName = example.mesh->dataName;
+  } else {
+    mesh.name = example.source.path().stem().string();
+  }
 }
 
 TriangleMesh boxesOf(const LabelGrid& grid, bool closedLabels, const std::string& what,
@@ -73,6 +86,13 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
       settingRow<O>("triangles", &O::triangles,
                     "merge triangles of the contour until there are no more than this (0: do not)",
                     kFromZero),
+      settingRow<O>("lods", &O::lods,
+                    "also write so many coarser copies (NAME_lod1, ...), each with a quarter of "
+                    "the triangles of the one before",
+                    {0, 8}),
+      settingRow<O>("source", &O::source,
+                    "write for each vertex the triangle of the example that it came from, and the "
+                    "place there (.glb, .gltf)"),
       settingRow<O>(
           "detail", &O::detail,
           "re-make the result at this many times the resolution, with the example's finer "
@@ -99,13 +119,21 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
 
 void requireSurface(const SurfaceOptions& options, std::size_t examples) {
   if (options.surface == SurfaceKind::Contour) return;
-  if (options.simplify > 0 || options.triangles > 0)
-    throw InputError("`simplify`, `triangles`: only a contour is simplified, not copied triangles");
+  if (options.simplify > 0 || options.triangles > 0 || options.lods > 0) {
+    throw InputError(
+        "`simplify`, `triangles`, `lods`: only a contour is simplified, not copied triangles");
+  }
+  if (options.source)
+    throw InputError("`source`: only a contour says where it came from, not copied triangles");
   if (examples > 1) throw InputError("`surface` copy: there are several examples; use contour");
 }
 
 void requireSurface(const SurfaceOptions& options, std::span<const Example> examples) {
   requireSurface(options, examples.size());
+  const bool allMeshes = std::ranges::all_of(
+      examples, [](const Example& example) { return example.mesh.has_value(); });
+  if (options.source && !allMeshes)
+    throw InputError("`source`: an example has no triangles that could be named; leave it out");
   if (options.surface == SurfaceKind::Contour) return;
   if (!examples.front().mesh)
     throw InputError("`surface` copy: the example has no triangles to copy; use contour");
@@ -117,13 +145,6 @@ Surface realize(const Result& result, std::span<const Example> examples,
     throw InputError("there is no result to make a surface of: " + result.why);
   if (result.form() == Form::Map) throw InputError("a map has no surface; write a .png");
   requireSurface(options, examples);
-  if (result.form() == Form::Field) {
-    Surface surface = options.surface == SurfaceKind::Copy
-                          ? copied(result, examples, progress)
-                          : contoured(result, examples, options, progress);
-    turn(surface.mesh, examples.front().turn);
-    return surface;
-  }
   Surface surface;
   if (result.form() == Form::Polygons) {
     surface.mesh = continuous::triangulate(
@@ -133,10 +154,18 @@ Surface realize(const Result& result, std::span<const Example> examples,
     if (!options.shells)
       paintFaces(result.polygons(), examples.front(), surface.faces, surface.mesh);
     surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
-    return surface;
+  } else if (result.form() == Form::Labels) {
+    surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));
+    surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
+  } else {
+    surface = options.surface == SurfaceKind::Copy
+                  ? copied(result, examples, progress)
+                  : contoured(result, examples, options, progress);
+    turn(surface.mesh, examples.front().turn);
+    for (CoarserSurface& lod : surface.lods) turn(lod.mesh, examples.front().turn);
   }
-  surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));
-  surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
+  nameAfter(examples.front(), surface.mesh);
+  for (CoarserSurface& lod : surface.lods) nameAfter(examples.front(), lod.mesh);
   return surface;
 }
 
@@ -155,10 +184,22 @@ TriangleMesh realizeLabels(const LabelGrid& grid, const Example& example,
   return boxesOf(grid, true, "the result has no geometry", progress);
 }
 
-TriangleMesh contourOf(const Example& example, const Progress& progress) {
-  TriangleMesh mesh = fieldToMesh(example.field(), {.wraps = example.continues}, progress);
-  turn(mesh, example.turn);
-  return mesh;
+Surface contourOf(const Example& example, const SurfaceOptions& options, const Progress& progress) {
+  ReconstructOptions contour;
+  contour.contour.wraps = example.continues;
+  contour.simplify = options.simplify;
+  contour.triangles = options.triangles;
+  contour.lods = options.lods;
+  const ReconstructExample bare{example.field()};
+  Reconstruction made = reconstructSurface(example.field(), {}, bare, contour, progress);
+  Surface surface{std::move(made.mesh), made.health, made.contoured, std::move(made.lods), {}};
+  turn(surface.mesh, example.turn);
+  nameAfter(example, surface.mesh);
+  for (CoarserSurface& lod : surface.lods) {
+    turn(lod.mesh, example.turn);
+    nameAfter(example, lod.mesh);
+  }
+  return surface;
 }
 
 TriangleMesh pictured(const Example& example, const Progress& progress) {

@@ -13,6 +13,7 @@
 #include "engine/setting.h"
 #include "mesh/mesh_health.h"
 #include "mesh/triangle_mesh.h"
+#include "reconstruct/reconstruct.h"
 
 /// Results, and examples, as surfaces.
 namespace exemplar {
@@ -27,6 +28,8 @@ struct SurfaceOptions {
   SurfaceKind surface = SurfaceKind::Contour;
   double simplify = 0;         ///< Field: merge triangles that stay within this many voxels, >= 0
   std::int64_t triangles = 0;  ///< Field: merge triangles down to this many; 0 for not at all
+  int lods = 0;            ///< Field: so many coarser copies, each a quarter of the triangles, 0..8
+  bool source = false;     ///< Field: keep where each corner came from (`TriangleMesh::sources`)
   int detail = 1;          ///< Field: re-make the result at this many times the resolution, 1..16
   bool instances = false;  ///< Labels: write each model piece once and place it (.glb)
   bool shells = false;     ///< Polygons: a closed shell of each material, in place of what is seen
@@ -43,6 +46,7 @@ struct Surface {
   TriangleMesh mesh;
   MeshHealth health;
   std::int64_t contoured = 0;  ///< triangles of a contour before they were merged
+  std::vector<CoarserSurface> lods;
   /// Of a result of polygons: which face each triangle is a part of.
   std::vector<std::uint32_t> faces;
 };
@@ -59,7 +63,8 @@ TriangleMesh realizeLabels(const LabelGrid& grid, const Example& example,
                            const Progress& progress = {});
 
 /// The contour of an example's field, without materials, open where copies of the field join.
-TriangleMesh contourOf(const Example& example, const Progress& progress = {});
+Surface contourOf(const Example& example, const SurfaceOptions& options = {},
+                  const Progress& progress = {});
 
 /// An example as pictures show it: a mesh as it is; labels as boxes, or as the pieces or the field
 /// that they were made of; a field contoured, closed where its box cuts it, with the materials of

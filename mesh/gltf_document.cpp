@@ -165,7 +165,7 @@ GltfDocument::GltfDocument(std::string_view bytes, const MeshSource& source)
   }
   if (!root_.is_object()) fail("its JSON should be an object");
   for (const char* key : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers",
-                          "materials", "textures", "images", "skins"}) {
+                          "materials", "textures", "images", "samplers", "skins"}) {
     if (root_.contains(key) && !root_[key].is_array())
       fail(std::string(key) + " should be an array");
   }

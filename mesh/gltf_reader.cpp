@@ -5,13 +5,16 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 #include <unordered_map>
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/text_scanner.h"
 #include "mesh/gltf_document.h"
 #include "mesh/gltf_materials.h"
+#include "mesh/gltf_scene.h"
 #include "mesh/mesh_formats.h"
 
 namespace exemplar {
@@ -20,19 +23,6 @@ namespace {
 using Json = GltfDocument::Json;
 
 constexpr std::uint32_t kNone = 0xffffffff;
-
-/// An affine map: three columns and a translation.
-struct Transform {
-  Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, move{};
-
-  Vec3d turned(const Vec3d& v) const { return x * v.x + y * v.y + z * v.z; }
-  Vec3d operator()(const Vec3d& p) const { return turned(p) + move; }
-  /// First `other`, then this.
-  Transform operator*(const Transform& other) const {
-    return {turned(other.x), turned(other.y), turned(other.z), (*this)(other.move)};
-  }
-  bool mirrors() const { return dot(cross(x, y), z) < 0; }
-};
 
 /// Vertices that one or more primitives of a mesh index.
 struct VertexSet {
@@ -63,15 +53,6 @@ struct Primitive {
 struct DecodedMesh {
   std::vector<VertexSet> sets;
   std::vector<Primitive> primitives;
-};
-
-/// A mesh where the scene shows it.
-struct Instance {
-  std::uint64_t mesh = 0;
-  Transform transform;
-  std::optional<std::uint64_t> skin;
-  std::vector<double> weights;  ///< of morph targets
-  const DecodedMesh* decoded = nullptr;
 };
 
 /// Gives each different pair of position and color one vertex of a mesh.
@@ -131,196 +112,31 @@ class Joiner {
 class GltfReader {
  public:
   GltfReader(std::string_view bytes, const MeshSource& source)
-      : in_(bytes, source), source_(source), materials_(in_, source, mesh_) {}
+      : in_(bytes, source), source_(source), materials_(in_, source, mesh_), scene_(in_, source) {}
 
   TriangleMesh read() {
-    findInstances();
     decodeMeshes();
-    for (std::size_t i = 0; i < instances_.size(); ++i) {
+    const std::vector<GltfInstance>& instances = scene_.instances();
+    for (std::size_t i = 0; i < instances.size(); ++i) {
       source_.progress.report("placing meshes", 0.5 + 0.5 * static_cast<double>(i) /
-                                                          static_cast<double>(instances_.size()));
-      add(instances_[i]);
+                                                          static_cast<double>(instances.size()));
+      add(instances[i], *decoded_[i]);
     }
     materials_.finish();
+    nameMesh();
+    warnOfAttributes();
     return std::move(mesh_);
   }
 
  private:
-  Transform transformOf(const Json& node, const std::string& place) const {
-    double m[16];
-    if (in_.numbers(node, "matrix", 16, m, place)) {
-      return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-    }
-    double move[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
-    in_.numbers(node, "translation", 3, move, place);
-    in_.numbers(node, "rotation", 4, q, place);
-    in_.numbers(node, "scale", 3, scale, place);
-    return fromParts(move, q, scale, place);
-  }
-
-  /// A scale, then a rotation by a quaternion (x, y, z, w), then a move.
-  Transform fromParts(const double* move, const double* q, const double* scale,
-                      const std::string& place) const {
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(length > 0) || !std::isfinite(length)) in_.fail(place + ".rotation should have length 1");
-    const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
-    Transform t;
-    t.x = Vec3d{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)} * scale[0];
-    t.y = Vec3d{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)} * scale[1];
-    t.z = Vec3d{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)} * scale[2];
-    t.move = {move[0], move[1], move[2]};
-    return t;
-  }
-
-  /// The nodes where the scene begins: the default scene's, the first one's, or, where there is no
-  /// scene, all nodes that are no other node's child.
-  std::vector<std::uint64_t> rootNodes() const {
-    std::vector<std::uint64_t> roots;
-    if (in_.count("scenes") > 0) {
-      const std::uint64_t scene = in_.index(in_.root(), "scene", "the file").value_or(0);
-      if (in_.count("scenes") > 1) {
-        source_.warn("of its " + std::to_string(in_.count("scenes")) + " scenes only scenes[" +
-                     std::to_string(scene) + "] is read");
-      }
-      const std::string place = "scenes[" + std::to_string(scene) + "]";
-      appendNodes(in_.element("scenes", scene, "the file"), "nodes", place, roots);
-      return roots;
-    }
-    std::vector<bool> isChild(in_.count("nodes"), false);
-    for (std::uint64_t n = 0; n < isChild.size(); ++n) {
-      std::vector<std::uint64_t> children;
-      const std::string place = "nodes[" + std::to_string(n) + "]";
-      appendNodes(in_.element("nodes", n, place), "children", place, children);
-      for (const std::uint64_t child : children) isChild[child] = true;
-    }
-    for (std::uint64_t n = 0; n < isChild.size(); ++n) {
-      if (!isChild[n]) roots.push_back(n);
-    }
-    return roots;
-  }
-
-  void appendNodes(const Json& object, const char* key, const std::string& place,
-                   std::vector<std::uint64_t>& to) const {
-    const Json* nodes = in_.array(object, key, place);
-    if (!nodes) return;
-    for (const Json& n : *nodes) {
-      if (!n.is_number_unsigned() || n.get<std::uint64_t>() >= in_.count("nodes")) {
-        in_.fail(place + "." + key + " names a node that does not exist: there are " +
-                 std::to_string(in_.count("nodes")));
-      }
-      to.push_back(n.get<std::uint64_t>());
-    }
-  }
-
-  /// Walks the tree of nodes without recursion: it may be as deep as the file is long.
-  void findInstances() {
-    struct Step {
-      std::uint64_t node;
-      Transform parent;
-      bool visible;
-    };
-    std::vector<Step> stack;
-    const auto push = [&](std::vector<std::uint64_t> nodes, const Transform& parent, bool visible) {
-      // The stack gives back the last one first; the order of the file is what we want.
-      for (std::size_t i = nodes.size(); i-- > 0;) stack.push_back({nodes[i], parent, visible});
-    };
-    placed_.resize(in_.count("nodes"));
-    push(rootNodes(), {}, true);
-    while (!stack.empty()) {
-      const Step step = stack.back();
-      stack.pop_back();
-      const std::string place = "nodes[" + std::to_string(step.node) + "]";
-      if (placed_[step.node]) in_.fail(place + " is reached twice: nodes should form a tree");
-      const Json& node = in_.element("nodes", step.node, "the scene");
-      const Transform transform = step.parent * transformOf(node, place);
-      placed_[step.node] = transform;
-      const bool visible = step.visible && isVisible(node, place);
-      if (visible) addInstances(node, transform, place);
-      std::vector<std::uint64_t> children;
-      appendNodes(node, "children", place, children);
-      push(std::move(children), transform, visible);
-    }
-  }
-
-  /// KHR_node_visibility hides a node with all below it.
-  bool isVisible(const Json& node, const std::string& place) const {
-    const Json* visibility = in_.extension(node, "KHR_node_visibility", place);
-    if (!visibility) return true;
-    const auto visible = visibility->find("visible");
-    return visible == visibility->end() || !visible->is_boolean() || visible->get<bool>();
-  }
-
-  void addInstances(const Json& node, const Transform& transform, const std::string& place) {
-    const auto mesh = in_.index(node, "mesh", place);
-    if (!mesh) return;
-    const Json& json = in_.element("meshes", *mesh, place);
-    Instance instance{.mesh = *mesh, .transform = transform};
-    instance.skin = in_.index(node, "skin", place);
-    // The weights of a node come before those of its mesh.
-    instance.weights = weightsOf(node, place);
-    if (instance.weights.empty()) {
-      instance.weights = weightsOf(json, "meshes[" + std::to_string(*mesh) + "]");
-    }
-    const Json* instancing = in_.extension(node, "EXT_mesh_gpu_instancing", place);
-    if (!instancing) {
-      instances_.push_back(std::move(instance));
-      return;
-    }
-    for (const Transform& copy : instanceTransforms(*instancing, place)) {
-      instance.transform = transform * copy;
-      instances_.push_back(instance);
-    }
-  }
-
-  std::vector<double> weightsOf(const Json& object, const std::string& place) const {
-    const Json* array = in_.array(object, "weights", place);
-    if (!array) return {};
-    std::vector<double> weights(array->size());
-    in_.numbers(object, "weights", weights.size(), weights.data(), place);
-    return weights;
-  }
-
-  /// The places that EXT_mesh_gpu_instancing gives a node's mesh.
-  std::vector<Transform> instanceTransforms(const Json& instancing, const std::string& node) {
-    const std::string place = node + ".EXT_mesh_gpu_instancing";
-    const Json* attributes = in_.object(instancing, "attributes", place);
-    if (!attributes) in_.fail(place + ".attributes is missing");
-    std::optional<std::uint64_t> count;
-    const auto read = [&](const char* key, int components) {
-      std::vector<double> numbers;
-      const auto index = in_.index(*attributes, key, place);
-      if (!index) return numbers;
-      GltfAccessor accessor = in_.accessor(*index, place);
-      accessor.normalized = true;  // integers are allowed for rotations only, as shares of 1
-      if (accessor.components != components || (count && *count != accessor.count))
-        in_.fail(accessor.place + " does not fit its use as " + key + " of instances");
-      count = accessor.count;
-      numbers = in_.readNumbers(accessor);
-      for (const double n : numbers) {
-        if (!std::isfinite(n)) in_.fail(accessor.place + " has a NaN or infinite number");
-      }
-      return numbers;
-    };
-    const std::vector<double> moves = read("TRANSLATION", 3), rotations = read("ROTATION", 4),
-                              scales = read("SCALE", 3);
-    std::vector<Transform> transforms;
-    constexpr double kNoMove[] = {0, 0, 0}, kNoTurn[] = {0, 0, 0, 1}, kNoScale[] = {1, 1, 1};
-    for (std::uint64_t i = 0; i < count.value_or(1); ++i) {
-      transforms.push_back(fromParts(moves.empty() ? kNoMove : &moves[3 * i],
-                                     rotations.empty() ? kNoTurn : &rotations[4 * i],
-                                     scales.empty() ? kNoScale : &scales[3 * i], place));
-    }
-    return transforms;
-  }
-
   void decodeMeshes() {
     double bytes = 0, vertices = 0;
-    for (Instance& instance : instances_) {
+    for (const GltfInstance& instance : scene_.instances()) {
       // Meshes that are bent differently are decoded apart.
       const auto [found, added] =
           meshes_.try_emplace({instance.mesh, instance.skin.has_value(), instance.weights});
       if (added) found->second = decodeMesh(instance);
-      instance.decoded = &found->second;
+      decoded_.push_back(&found->second);
       for (const VertexSet& s : found->second.sets) {
         vertices += static_cast<double>(s.positions.size());
         bytes += static_cast<double>(s.positions.size() * 40);
@@ -334,7 +150,7 @@ class GltfReader {
     if (vertices >= kNone) in_.fail("the scene has more than 4294967294 vertices");
   }
 
-  DecodedMesh decodeMesh(const Instance& instance) {
+  DecodedMesh decodeMesh(const GltfInstance& instance) {
     const std::uint64_t index = instance.mesh;
     source_.progress.report("decoding meshes", 0.5 * static_cast<double>(meshes_.size()) /
                                                    static_cast<double>(in_.count("meshes") + 1));
@@ -530,55 +346,6 @@ class GltfReader {
     }
   }
 
-  /// A node's transform in world space, whether or not the scene shows it.
-  Transform placeOf(std::uint64_t node) {
-    if (parents_.empty()) {
-      parents_.resize(in_.count("nodes"));
-      for (std::uint64_t n = 0; n < parents_.size(); ++n) {
-        std::vector<std::uint64_t> children;
-        const std::string place = "nodes[" + std::to_string(n) + "]";
-        appendNodes(in_.element("nodes", n, place), "children", place, children);
-        for (const std::uint64_t child : children) parents_[child] = n;
-      }
-    }
-    Transform transform;
-    std::optional<std::uint64_t> at = node;
-    for (std::size_t steps = 0; at && !placed_[*at]; at = parents_[*at]) {
-      const std::string place = "nodes[" + std::to_string(*at) + "]";
-      if (++steps > parents_.size()) in_.fail(place + " is its own parent");
-      transform = transformOf(in_.element("nodes", *at, place), place) * transform;
-    }
-    return at ? *placed_[*at] * transform : transform;
-  }
-
-  /// What a skin's joints do to vertices: where a joint is now, after undoing where it was when the
-  /// skin was bound to it.
-  std::vector<Transform> jointTransforms(std::uint64_t skin) {
-    const std::string place = "skins[" + std::to_string(skin) + "]";
-    const Json& json = in_.element("skins", skin, "a node");
-    std::vector<std::uint64_t> joints;
-    appendNodes(json, "joints", place, joints);
-    if (joints.empty()) in_.fail(place + " has no joints");
-    std::vector<double> inverse;
-    if (const auto index = in_.index(json, "inverseBindMatrices", place)) {
-      const GltfAccessor accessor = in_.accessor(*index, place);
-      if (accessor.components != 16 || accessor.count < joints.size())
-        in_.fail(accessor.place + " should be a MAT4 for each joint");
-      inverse = in_.readNumbers(accessor);
-    }
-    std::vector<Transform> transforms;
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      transforms.push_back(placeOf(joints[i]));
-      if (inverse.empty()) continue;
-      const double* m = &inverse[16 * i];
-      transforms.back() = transforms.back() * Transform{{m[0], m[1], m[2]},
-                                                        {m[4], m[5], m[6]},
-                                                        {m[8], m[9], m[10]},
-                                                        {m[12], m[13], m[14]}};
-    }
-    return transforms;
-  }
-
   std::vector<std::uint32_t> decodeIndices(const Json& primitive, std::size_t vertices,
                                            const std::string& at) {
     std::vector<std::uint32_t> indices;
@@ -622,9 +389,10 @@ class GltfReader {
 
   void decodeUvs(Primitive& primitive, const Json& attributes, std::size_t vertices,
                  std::map<std::uint64_t, std::vector<double>>& uvsOf, const std::string& at) {
-    GltfTextureUse use;
-    if (primitive.material != kNone) use = materials_.textureUse(primitive.material);
-    const std::string key = "TEXCOORD_" + std::to_string(use.texCoord);
+    const std::uint64_t set =
+        primitive.material == kNone ? 0 : materials_.texCoord(primitive.material);
+    const std::string key = "TEXCOORD_" + std::to_string(set);
+    noteUnread(attributes, key);
     const auto index = in_.index(attributes, key.c_str(), at + ".attributes");
     if (!index) return;
     const auto [found, added] = uvsOf.try_emplace(*index);
@@ -648,18 +416,45 @@ class GltfReader {
     for (const auto& triangle : primitive.triangles) {
       auto& corners = primitive.uvs.emplace_back();
       for (int c = 0; c < 3; ++c) {
-        corners[c] = use.apply(uvs[2 * triangle[c]], uvs[2 * triangle[c] + 1]);
-        if (!std::isfinite(corners[c].x) || !std::isfinite(corners[c].y)) {
-          in_.fail(at + " has a texture coordinate that its transform makes infinite");
-        }
+        // v runs down in the file.
+        corners[c] = {static_cast<float>(uvs[2 * triangle[c]]),
+                      static_cast<float>(1 - uvs[2 * triangle[c] + 1])};
       }
     }
   }
 
-  void add(const Instance& instance) {
-    const DecodedMesh& source = *instance.decoded;
-    std::vector<Transform> joints;
-    if (instance.skin) joints = jointTransforms(*instance.skin);
+  /// Remembers the attributes of a primitive that nothing here has a place for.
+  void noteUnread(const Json& attributes, const std::string& texCoord) {
+    for (const auto& item : attributes.items()) {
+      const std::string& key = item.key();
+      const bool derived = key == "POSITION" || key == "NORMAL" || key == "TANGENT" ||
+                           key == "COLOR_0" || key == texCoord || key.starts_with("JOINTS_") ||
+                           key.starts_with("WEIGHTS_");
+      if (!derived) unread_.insert(TextScanner::shown(key));
+    }
+  }
+
+  void warnOfAttributes() const {
+    if (unread_.empty()) return;
+    std::string names;
+    for (const std::string& name : unread_) names += (names.empty() ? "" : ", ") + name;
+    source_.warn("attributes of vertices that are not read: " + names);
+  }
+
+  /// The names of the only object.
+  void nameMesh() {
+    if (scene_.instances().size() != 1) return;
+    const GltfInstance& only = scene_.instances().front();
+    mesh_.name = only.name;
+    const std::string place = "meshes[" + std::to_string(only.mesh) + "]";
+    mesh_.dataName = in_.text(in_.element("meshes", only.mesh, place), "name", place);
+    if (mesh_.name.empty()) mesh_.name = mesh_.dataName;
+    if (mesh_.name == mesh_.dataName) mesh_.dataName.clear();
+  }
+
+  void add(const GltfInstance& instance, const DecodedMesh& source) {
+    std::vector<GltfTransform> joints;
+    if (instance.skin) joints = scene_.jointTransforms(*instance.skin);
     const bool mirrors = joints.empty() ? instance.transform.mirrors() : joints.front().mirrors();
     Joiner joiner;
     std::vector<std::vector<std::uint32_t>> vertexOf;
@@ -684,8 +479,8 @@ class GltfReader {
   }
 
   /// Adds a set's vertices, turned and moved; returns the index in the result of each.
-  std::vector<std::uint32_t> addVertices(const VertexSet& set, const Transform& transform,
-                                         const std::vector<Transform>& joints, Joiner& joiner) {
+  std::vector<std::uint32_t> addVertices(const VertexSet& set, const GltfTransform& transform,
+                                         const std::vector<GltfTransform>& joints, Joiner& joiner) {
     std::vector<std::uint32_t> vertexOf;
     vertexOf.reserve(set.positions.size());
     if (set.join) joiner.reserve(set.positions.size());
@@ -720,7 +515,8 @@ class GltfReader {
   }
 
   /// Where a skin puts a vertex; its node's own transform has no effect (glTF 2.0, 3.7.3.2).
-  Vec3d skinned(const VertexSet& set, std::size_t v, const std::vector<Transform>& joints) const {
+  Vec3d skinned(const VertexSet& set, std::size_t v,
+                const std::vector<GltfTransform>& joints) const {
     Vec3d sum{};
     double weights = 0;
     for (const VertexSet::Joint& joint : set.joints[v]) {
@@ -738,11 +534,11 @@ class GltfReader {
   const MeshSource& source_;
   TriangleMesh mesh_;
   GltfMaterials materials_;
-  std::vector<Instance> instances_;
+  GltfScene scene_;
+  std::vector<const DecodedMesh*> decoded_;  // of each instance
+  std::set<std::string> unread_;
   /// By mesh, whether a skin moves it, and its weights.
   std::map<std::tuple<std::uint64_t, bool, std::vector<double>>, DecodedMesh> meshes_;
-  std::vector<std::optional<Transform>> placed_;       // the nodes of the scene in world space
-  std::vector<std::optional<std::uint64_t>> parents_;  // of all nodes; empty until asked for
 };
 
 }  // namespace

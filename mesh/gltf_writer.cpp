@@ -11,7 +11,10 @@
 
 #include "core/base64.h"
 #include "core/error.h"
+#include "mesh/gltf_material_writer.h"
 #include "mesh/mesh_formats.h"
+#include "mesh/split_vertices.h"
+#include "mesh/tangents.h"
 
 namespace exemplar {
 namespace {
@@ -46,17 +49,21 @@ class GlbWriter {
         yUp_(yUp),
         normals_(normals),
         plain_(plain),
-        progress_(progress) {
+        progress_(progress),
+        materials_(mesh, [this](const std::string& bytes) { return addPicture(bytes); }) {
     // Floats are finest near 0: a mesh far from there is moved to it, and its nodes move it back.
     if (floatRounding(mesh) > kVisibleRounding) offset_ = roundedCenter(boundingBox(mesh));
   }
 
   std::string write() {
     Json node{{"mesh", 0}};
+    if (!mesh_.name.empty()) node["name"] = mesh_.name;
     const Vec3d shift = toFileAxes(offset_, yUp_);
     if (offset_ != Vec3d{}) node["translation"] = {shift.x, shift.y, shift.z};
     start(Json::array({std::move(node)}));
     json_["meshes"] = Json::array({addPrimitives()});
+    const std::string& name = mesh_.dataName.empty() ? mesh_.name : mesh_.dataName;
+    if (!name.empty()) json_["meshes"][0]["name"] = name;
     progress_.report("writing", 0.5);
     return finish();
   }
@@ -82,6 +89,8 @@ class GlbWriter {
       const TriangleMesh alone = partAlone(instances.first[part], instances.first[part + 1]);
       part_ = &alone;
       meshes.push_back(addPrimitives());
+      meshes.back()["name"] =
+          (mesh_.name.empty() ? "piece" : mesh_.name) + "_" + std::to_string(part);
     }
     part_ = &mesh_;
     json_["meshes"] = std::move(meshes);
@@ -104,7 +113,6 @@ class GlbWriter {
     json_["accessors"] = std::move(accessors_);
     json_["bufferViews"] = std::move(views_);
     json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
-    if (!extensions_.empty()) json_["extensionsUsed"] = std::move(extensions_);
     return plain_ ? plainJson() : container();
   }
 
@@ -189,7 +197,8 @@ class GlbWriter {
   /// where parts touch, `extras` says how many vertices are no copies, and of which vertices those
   /// copies are that equal several.
   void addCopies(Json& json, const SplitVertices& vertices) const {
-    if (vertices.normals.empty() && vertices.uvs.empty()) return;  // nothing is joined
+    if (vertices.normals.empty() && vertices.uvs.empty() && vertices.points.empty())
+      return;  // nothing is joined
     std::vector<Vec3d> places;
     places.reserve(vertices.originals);
     for (std::size_t i = 0; i < vertices.originals; ++i)
@@ -231,20 +240,64 @@ class GlbWriter {
                        [](const auto& c) { return c[3] < 1; });
   }
 
+  int addTangents(const std::vector<Tangent>& tangents) {
+    const std::size_t begin = binary_.size();
+    for (const auto& [x, y, z, side] : tangents) {
+      const Vec3d t = toFileAxes({x, y, z}, yUp_);
+      for (const double c : {t.x, t.y, t.z}) appendLittle(binary_, static_cast<float>(c));
+      appendLittle(binary_, side);
+    }
+    return addAccessor(endView(begin, kVertices), kFloat, tangents.size(), "VEC4");
+  }
+
+  /// Where vertices came from, as attributes of an application, whose numbers are floats: those of
+  /// triangles are exact to 2^24.
+  void addSources(Json& attributes, const std::vector<SourcePoint>& points) {
+    const auto add = [&](const char* name, const char* type, const auto& append) {
+      const std::size_t begin = binary_.size();
+      for (const SourcePoint& point : points) append(point);
+      attributes[name] = addAccessor(endView(begin, kVertices), kFloat, points.size(), type);
+    };
+    add("_SOURCE_FACE", "SCALAR", [&](const SourcePoint& point) {
+      appendLittle(binary_, static_cast<float>(point.triangle));
+    });
+    add("_SOURCE_WEIGHTS", "VEC2", [&](const SourcePoint& point) {
+      for (const float w : point.weights) appendLittle(binary_, w);
+    });
+    add("_SOURCE_EXAMPLE", "SCALAR", [&](const SourcePoint& point) {
+      appendLittle(binary_, static_cast<float>(point.example));
+    });
+  }
+
+  /// The tangents of a part where a material has a normal map.
+  CornerTangents tangentsOf(const ShadingNormals& normals) {
+    if (!part_->hasUvs() || !part_->hasMaterials() || normals.corners.empty()) return {};
+    if (std::ranges::none_of(part_->triangleMaterials,
+                             [&](std::uint32_t m) { return lookups_[m].has_value(); }))
+      return {};
+    return cornerTangents(*part_, normals, lookups_, progress_);
+  }
+
   /// The file has the materials that triangles use, in their order.
   void numberMaterials() {
     const std::size_t materials = mesh_.hasMaterials() ? mesh_.materials.size() : 1;
     std::vector<bool> used(materials, !mesh_.hasMaterials());
     for (const std::uint32_t m : mesh_.triangleMaterials) used[m] = true;
     std::uint32_t next = 0;
-    for (std::size_t m = 0; m < materials; ++m) materialOf_.push_back(used[m] ? next++ : kNone);
+    for (std::size_t m = 0; m < materials; ++m) {
+      materialOf_.push_back(used[m] ? next++ : kNone);
+      if (mesh_.hasMaterials())
+        lookups_.push_back(used[m] ? normalMapLookup(mesh_.materials[m]) : std::nullopt);
+    }
   }
 
   /// A mesh of the file: one primitive for each material, all with the same vertices.
   Json addPrimitives() {
     const Progress computing = part_ == &mesh_ ? progress_.part(0, 0.4) : Progress{};
+    const ShadingNormals normals = shadingNormals(*part_, normals_, computing);
+    const CornerTangents tangents = tangentsOf(normals);
     const SplitVertices vertices =
-        splitVertices(*part_, shadingNormals(*part_, normals_, computing), {}, progress_);
+        splitVertices(*part_, normals, tangents, {.sources = true}, progress_);
     progress_.check();
     binary_.reserve(binary_.size() + vertices.source.size() * (part_->hasColors() ? 28 : 12) +
                     vertices.normals.size() * 12 + vertices.uvs.size() * 8 +
@@ -261,6 +314,8 @@ class GlbWriter {
       attributes["TEXCOORD_0"] =
           addAccessor(endView(begin, kVertices), kFloat, vertices.uvs.size(), "VEC2");
     }
+    const int tangent = vertices.tangents.empty() ? -1 : addTangents(vertices.tangents);
+    if (!vertices.points.empty()) addSources(attributes, vertices.points);
     // The triangles of each material, one behind the other in one view.
     const std::size_t materials = part_->hasMaterials() ? part_->materials.size() : 1;
     std::vector<std::vector<std::uint32_t>> trianglesOf(materials);
@@ -285,6 +340,7 @@ class GlbWriter {
       const int indices = addAccessor(view, kUnsignedInt, 3 * triangles.size(), "SCALAR", offset);
       primitives.push_back(
           {{"attributes", attributes}, {"indices", indices}, {"material", materialOf_[m]}});
+      if (tangent >= 0 && lookups_[m]) primitives.back()["attributes"]["TANGENT"] = tangent;
       offset += 12 * triangles.size();
     }
     Json json{{"primitives", std::move(primitives)}};
@@ -293,61 +349,29 @@ class GlbWriter {
   }
 
   void addMaterials() {
-    Json materials = Json::array();
     if (!mesh_.hasMaterials()) {
       // The standard's default material is metal, which is black in most viewers. The mark lets our
       // reader leave it out again.
       Material plain;
       if (mesh_.hasColors()) plain.baseColor = {1, 1, 1, 1};
-      materials.push_back(materialJson(plain));
-      materials.back()["extras"] = {{"exemplarPlaceholder", true}};
+      materials_.add(plain, hasAlpha());
+      materials_.markPlaceholder();
     }
-    for (std::size_t m = 0; m < mesh_.materials.size() && mesh_.hasMaterials(); ++m) {
-      if (materialOf_[m] != kNone) materials.push_back(materialJson(mesh_.materials[m]));
+    std::vector<bool> translucent(mesh_.materials.size(), false);
+    if (mesh_.hasColors() && mesh_.hasMaterials()) {
+      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+        for (const std::uint32_t v : mesh_.triangles[t])
+          if (mesh_.colors[v][3] < 1) translucent[mesh_.triangleMaterials[t]] = true;
     }
-    json_["materials"] = std::move(materials);
-    if (!textures_.empty()) {
-      json_["textures"] = std::move(textures_);
-      json_["images"] = std::move(images_);
-    }
+    for (std::size_t m = 0; m < mesh_.materials.size() && mesh_.hasMaterials(); ++m)
+      if (materialOf_[m] != kNone) materials_.add(mesh_.materials[m], translucent[m]);
+    materials_.finish(json_);
   }
 
-  Json materialJson(const Material& m) {
-    Json json;
-    if (!m.name.empty()) json["name"] = m.name;
-    Json& pbr = json["pbrMetallicRoughness"];
-    pbr["baseColorFactor"] = {unit(m.baseColor[0]), unit(m.baseColor[1]), unit(m.baseColor[2]),
-                              unit(m.baseColor[3])};
-    pbr["metallicFactor"] = unit(m.metallic);
-    pbr["roughnessFactor"] = unit(m.roughness);
-    if (m.baseColorTexture) pbr["baseColorTexture"] = {{"index", addTexture(*m.baseColorTexture)}};
-    const float strongest = std::max({m.emission.x, m.emission.y, m.emission.z, 0.0f});
-    if (strongest > 0) {
-      // Factors go up to 1; a power of two takes the rest exactly.
-      float strength = 1;
-      while (strength < strongest && strength < 1e30f) strength *= 2;
-      const auto factor = [&](float e) { return unit(e / strength); };
-      json["emissiveFactor"] = {factor(m.emission.x), factor(m.emission.y), factor(m.emission.z)};
-      if (strength > 1) {
-        json["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
-        extensions_ = Json::array({"KHR_materials_emissive_strength"});
-      }
-    }
-    if (m.baseColor[3] < 1 || hasAlpha()) json["alphaMode"] = "BLEND";
-    return json;
-  }
-
-  int addTexture(std::uint32_t index) {
-    textureOf_.resize(mesh_.textures.size(), -1);
-    if (textureOf_[index] >= 0) return textureOf_[index];
-    const Texture& texture = mesh_.textures[index];
+  int addPicture(const std::string& bytes) {
     const std::size_t begin = binary_.size();
-    binary_ += texture.bytes;
-    images_.push_back({{"name", texture.name},
-                       {"mimeType", texture.mimeType},
-                       {"bufferView", endView(begin, 0)}});
-    textures_.push_back({{"source", images_.size() - 1}});
-    return textureOf_[index] = static_cast<int>(textures_.size() - 1);
+    binary_ += bytes;
+    return endView(begin, 0);
   }
 
   /// The JSON alone, its buffer embedded as base64.
@@ -388,11 +412,11 @@ class GlbWriter {
   Progress progress_;
   std::size_t meshes_ = 0;  // meshes of the file so far
   Json json_;
-  Json accessors_ = Json::array(), views_ = Json::array(), images_ = Json::array(),
-       textures_ = Json::array(), extensions_;
+  Json accessors_ = Json::array(), views_ = Json::array();
   std::string binary_;
   std::vector<std::uint32_t> materialOf_;
-  std::vector<int> textureOf_;
+  std::vector<std::optional<UvTransform>> lookups_;  // of the normal maps of materials
+  GltfMaterialWriter materials_;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
+#include "mesh/across_formats.h"
 #include "mesh/color.h"
 #include "mesh/face_outlines.h"
 #include "mesh/mesh_formats.h"
@@ -129,6 +130,11 @@ void writePolygons(const fs::path& path, const TriangleMesh& mesh,
   if (format == Format::None) failAtEnding(path);
   validate(mesh, path.string());
   const bool yUp = isYUp(format, options.up);
+  if (const std::vector<std::string> lost = lostIn(lowerExtension(path), mesh); !lost.empty()) {
+    std::string names;
+    for (const std::string& name : lost) names += (names.empty() ? "" : ", ") + name;
+    warn(options.warnings, path.string() + ": left out, as this format cannot hold it: " + names);
+  }
   const Progress formatting = progress.part(0, 0.8), writing = progress.part(0.8, 1);
   OutputFile out(path);
   constexpr double kVisible = 1e-5;
@@ -179,12 +185,6 @@ const char* coordinateProblem(const Vec3d& p) {
     return "has a coordinate of 1e15 or more";
   }
   return nullptr;
-}
-
-std::string imageMimeType(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
-  if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
-  return "";
 }
 
 void setFaceColors(TriangleMesh& mesh, const std::vector<std::array<std::uint8_t, 4>>& colors) {

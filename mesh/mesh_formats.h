@@ -101,6 +101,10 @@ const char* coordinateProblem(const Vec3d& p);
 
 /// What a picture's first bytes say it is: "image/png", "image/jpeg", or empty.
 std::string imageMimeType(std::string_view bytes);
+/// The same for pictures of other kinds, too, which are kept and not decoded; a `.tga` by its name.
+std::string pictureMimeType(std::string_view bytes, std::string_view name = {});
+/// The ending that files of a kind of picture have: ".png".
+std::string pictureEnding(std::string_view mimeType);
 
 /// Materials of triangles that come with an sRGB color each, as faces do in `.ply` and `.off`: one
 /// material for each color, in the order in which they come. `colors` has one for each triangle.

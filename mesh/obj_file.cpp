@@ -8,10 +8,12 @@
 #include <limits>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "core/text_scanner.h"
+#include "mesh/across_formats.h"
 #include "mesh/color.h"
 #include "mesh/face_outlines.h"
 #include "mesh/mesh_formats.h"
@@ -45,6 +47,8 @@ class ObjReader {
         readUv();
       } else if (key == "f") {
         readFace();
+      } else if (key == "o") {
+        nameObject(std::string(in_.rest()));
       } else if (key == "usemtl") {
         useMaterial(std::string(in_.rest()));
       } else if (key == "mtllib") {
@@ -57,6 +61,7 @@ class ObjReader {
     resolveColors();
     if (hasUvs_) resolveUvs();
     resolveMaterials();
+    if (objects_ != 1) mesh_.name.clear();
     if (shortFaces_ > 0) {
       source_.warn("leaving out " + counted(shortFaces_, "face") +
                    " with fewer than three corners");
@@ -242,6 +247,11 @@ class ObjReader {
     if (found == 0) mesh_.uvs.clear();
   }
 
+  void nameObject(const std::string& name) {
+    ++objects_;
+    mesh_.name = name;
+  }
+
   void useMaterial(const std::string& name) {
     const auto [found, added] =
         nameIndex_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
@@ -307,14 +317,12 @@ class ObjReader {
       return;
     }
     std::vector<std::uint32_t> materialOf(names_.size() + 1, kNone);
-    std::set<std::string> unread;
     for (MtlMaterial& m : library_) {
       const auto found = nameIndex_.find(m.material.name);
       if (found == nameIndex_.end() || !isUsed[found->second]) continue;
       if (materialOf[found->second] != kNone) continue;  // defined twice: the first one holds
       materialOf[found->second] = static_cast<std::uint32_t>(mesh_.materials.size());
-      m.material.baseColorTexture = loadTexture(m.baseColorFile);
-      unread.insert(m.otherMaps.begin(), m.otherMaps.end());
+      loadPictures(m);
       mesh_.materials.push_back(std::move(m.material));
     }
     for (std::size_t i = 0; i <= names_.size(); ++i) {
@@ -323,22 +331,52 @@ class ObjReader {
       mesh_.materials.push_back(i < names_.size() ? Material{.name = names_[i]} : Material{});
     }
     for (std::uint32_t& m : mesh_.triangleMaterials) m = materialOf[m == kNone ? names_.size() : m];
-    if (unread.empty()) return;
-    std::string keys;
-    for (const std::string& key : unread) keys += (keys.empty() ? "" : ", ") + key;
-    source_.warn("maps that are not read: " + keys);
+    warnOfPictures("is not found and is left out", "are not found and are left out", missing_);
+    warnOfPictures("is no picture and is left out", "are no pictures and are left out",
+                   noPictures_);
+    warnOfPictures("is neither PNG nor JPEG: it is copied with its material, and not shown",
+                   "are neither PNG nor JPEG: they are copied with their materials, and not shown",
+                   notShown_);
   }
 
-  /// The texture in a file; none, and a warning, where the file is not there or is no PNG or JPEG.
-  std::optional<std::uint32_t> loadTexture(const std::string& file) {
+  /// Gives a material its pictures, and its lines as its source.
+  void loadPictures(MtlMaterial& m) {
+    std::vector<std::string> numbers;
+    for (const MtlMap& map : m.maps) {
+      const auto picture = loadPicture(map.file);
+      numbers.emplace_back();
+      if (!picture) continue;
+      const bool shown = isShown(mesh_.textures[*picture]);
+      if (map.key == "map_kd" && shown) m.material.baseColorTexture = *picture;
+      if (map.key == "map_kd" && !shown) notShown_.push_back(map.file);
+      std::vector<std::uint32_t>& pictures = m.material.pictures;
+      const auto same = std::find(pictures.begin(), pictures.end(), *picture);
+      numbers.back() = std::to_string(same - pictures.begin());
+      if (same == pictures.end()) pictures.push_back(*picture);
+    }
+    if (!m.material.baseColorTexture) m.material.baseColorTransform = {};
+    std::string lines = withPictureNumbers(m.lines, numbers);
+    if (lines == plainMtlLines(m.material)) {
+      m.material.pictures.clear();
+      return;
+    }
+    m.material.source = std::make_shared<MaterialSource>(
+        MaterialSource{MaterialSource::Format::Mtl, std::move(lines)});
+  }
+
+  static bool isShown(const Texture& texture) {
+    return texture.mimeType == "image/png" || texture.mimeType == "image/jpeg";
+  }
+
+  /// The picture in a file; none where it is not there or is no picture.
+  std::optional<std::uint32_t> loadPicture(const std::string& file) {
     if (file.empty()) return std::nullopt;
     const auto [found, added] = textureOf_.try_emplace(file);
     if (!added) return found->second;
     std::optional<std::string> bytes = source_.siblingBytes(file);
-    const std::string mimeType = bytes ? imageMimeType(*bytes) : "";
+    const std::string mimeType = bytes ? pictureMimeType(*bytes, file) : "";
     if (mimeType.empty()) {
-      source_.warn("the texture " + TextScanner::shown(file) +
-                   (bytes ? " is neither PNG nor JPEG" : " is not found") + " and is left out");
+      (bytes ? noPictures_ : missing_).push_back(file);
       return std::nullopt;
     }
     found->second = static_cast<std::uint32_t>(mesh_.textures.size());
@@ -346,8 +384,23 @@ class ObjReader {
     return found->second;
   }
 
+  /// One line, however many there are.
+  void warnOfPictures(const char* one, const char* several, const std::vector<std::string>& files) {
+    if (files.empty()) return;
+    if (files.size() == 1) {
+      source_.warn("the texture " + TextScanner::shown(files[0]) + " " + one);
+      return;
+    }
+    constexpr std::size_t kMost = 5;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(files.size(), kMost); ++i)
+      names += (i == 0 ? "" : ", ") + TextScanner::shown(files[i]);
+    if (files.size() > kMost) names += " and " + std::to_string(files.size() - kMost) + " more";
+    source_.warn("the textures " + names + " " + several);
+  }
+
   /// A texture's own name: without folders and without the "STEM_" that `formatObj` puts in front.
-  std::string textureName(const std::string& file) const {
+  std::string textureName(const std::string& file) {
     const auto baseName = [](const std::string& path) {
       return path.substr(path.find_last_of("/\\") + 1);
     };
@@ -356,11 +409,8 @@ class ObjReader {
     stem = stem.substr(0, stem.rfind('.')) + "_";
     if (base.size() > stem.size() && base.starts_with(stem)) base = base.substr(stem.size());
     std::string unique = base;
-    const auto isTaken = [&] {
-      return std::any_of(mesh_.textures.begin(), mesh_.textures.end(),
-                         [&](const Texture& t) { return t.name == unique; });
-    };
-    for (int n = 2; isTaken(); ++n) unique = std::to_string(n) + "_" + base;
+    for (int n = 2; !textureNames_.insert(unique).second; ++n)
+      unique = std::to_string(n) + "_" + base;
     return unique;
   }
 
@@ -379,6 +429,9 @@ class ObjReader {
   std::vector<MtlMaterial> library_;
   std::set<std::string> libraries_;
   std::unordered_map<std::string, std::optional<std::uint32_t>> textureOf_;
+  std::set<std::string> textureNames_;
+  std::vector<std::string> missing_, noPictures_, notShown_;
+  std::size_t objects_ = 0;
 
   std::vector<Corner> corners_;
   std::vector<Corner> pendingCorners_;
@@ -387,60 +440,79 @@ class ObjReader {
   std::vector<std::array<std::uint32_t, 3>> pieces_;
 };
 
-/// `wanted` made fit for a line of its own, and unlike all names in `taken`.
-std::string uniqueName(const std::string& wanted, const std::string& fallback,
-                       std::set<std::string>& taken) {
-  std::string name;
-  for (const char c : wanted) {
-    name += static_cast<unsigned char>(c) < ' ' || c == '\\' || c == 0x7f ? '_' : c;
-  }
-  while (name.ends_with(' ')) name.pop_back();
-  name.erase(0, name.find_first_not_of(' '));
-  if (name.empty()) name = fallback;
-  const std::string base = name;
-  for (int n = 2; !taken.insert(name).second; ++n) name = base + "_" + std::to_string(n);
-  return name;
+/// Text made fit for a line of its own.
+std::string lineText(const std::string& wanted) {
+  std::string text;
+  for (const char c : wanted)
+    text += static_cast<unsigned char>(c) < ' ' || c == '\\' || c == 0x7f ? '_' : c;
+  while (text.ends_with(' ')) text.pop_back();
+  text.erase(0, text.find_first_not_of(' '));
+  if (text.starts_with('#')) text[0] = '_';  // else it would be a comment
+  return text;
 }
 
-/// A file name for a texture: its own, with anything but letters, digits, '-', '_' and '.' made
-/// '_', and the ending that its kind has.
-std::string textureFile(const std::string& stem, const Texture& texture, std::size_t index,
-                        std::set<std::string>& taken) {
+/// Names of materials or files, each once.
+class UniqueNames {
+ public:
+  /// `base` + `ending`, with a number between them where that is taken.
+  std::string add(const std::string& base, const std::string& ending = "") {
+    std::string name = base + ending;
+    if (taken_.insert(name).second) return name;
+    int& n = next_.try_emplace(name, 2).first->second;
+    std::string numbered;
+    do numbered = base + "_" + std::to_string(n++) + ending;
+    while (!taken_.insert(numbered).second);
+    return numbered;
+  }
+
+ private:
+  std::unordered_set<std::string> taken_;
+  std::unordered_map<std::string, int> next_;
+};
+
+/// A file name for a texture, without its ending: its own, with anything but letters, digits, '-',
+/// '_' and '.' made '_'.
+std::string textureStem(const Texture& texture, std::size_t index) {
   std::string base = texture.name;
-  for (const char* ending : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"}) {
-    if (base.ends_with(ending)) base.resize(base.size() - std::string_view(ending).size());
+  const std::vector<std::string> endings{
+      ".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG", pictureEnding(texture.mimeType)};
+  for (const std::string& ending : endings) {
+    if (!ending.empty() && base.ends_with(ending)) base.resize(base.size() - ending.size());
   }
   for (char& c : base) {
     const bool kept = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
                       c == '-' || c == '.' || static_cast<unsigned char>(c) >= 0x80;
     if (!kept) c = '_';
   }
-  if (base.empty()) base = "texture" + std::to_string(index);
-  const std::string ending = texture.mimeType == "image/jpeg" ? ".jpg" : ".png";
-  std::string file = stem + "_" + base + ending;
-  for (int n = 2; !taken.insert(file).second; ++n) {
-    file = stem + "_" + base + "_" + std::to_string(n) + ending;
-  }
-  return file;
+  return base.empty() ? "texture" + std::to_string(index) : base;
 }
 
-/// `mesh`'s materials under names fit for a file, with the files of their textures.
-std::vector<MtlMaterial> namedMaterials(const TriangleMesh& mesh, const std::string& stem,
-                                        std::vector<NamedBytes>& files) {
-  std::vector<std::string> textureFiles;
-  std::set<std::string> takenFiles, takenNames;
-  textureFiles.resize(mesh.textures.size());
-  std::vector<MtlMaterial> materials;
-  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
-    MtlMaterial& m = materials.emplace_back(MtlMaterial{mesh.materials[i], "", {}});
-    m.material.name = uniqueName(m.material.name, "material_" + std::to_string(i), takenNames);
-    if (!m.material.baseColorTexture) continue;
-    const std::uint32_t t = *m.material.baseColorTexture;
+/// `mesh`'s materials under names fit for a file, with the files of their pictures.
+std::vector<MtlEntry> namedMaterials(const TriangleMesh& mesh, const std::string& stem,
+                                     std::vector<NamedBytes>& files) {
+  std::vector<std::string> textureFiles(mesh.textures.size());
+  UniqueNames fileNames, names;
+  const auto fileOf = [&](std::uint32_t t) {
     if (textureFiles[t].empty()) {
-      textureFiles[t] = textureFile(stem, mesh.textures[t], t, takenFiles);
+      textureFiles[t] = fileNames.add(stem + "_" + textureStem(mesh.textures[t], t),
+                                      pictureEnding(mesh.textures[t].mimeType));
       files.push_back({textureFiles[t], mesh.textures[t].bytes});
     }
-    m.baseColorFile = textureFiles[t];
+    return textureFiles[t];
+  };
+  std::vector<MtlEntry> materials;
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    MtlEntry& entry = materials.emplace_back(MtlEntry{mesh.materials[i], {}, ""});
+    Material& m = entry.material;
+    m.name = lineText(m.name);
+    m.name = names.add(m.name.empty() ? "material_" + std::to_string(i) : m.name);
+    if (m.baseColorTexture) entry.baseColorFile = fileOf(*m.baseColorTexture);
+    // Of a material that came from glTF, those that a .mtl has a key for.
+    std::vector<bool> named(m.pictures.size(),
+                            m.source && m.source->format == MaterialSource::Format::Mtl);
+    for (const CarriedMap& map : gltfMapsOfMtl(m)) named.at(map.picture) = true;
+    for (std::size_t p = 0; p < m.pictures.size(); ++p)
+      entry.pictureFiles.push_back(named[p] ? fileOf(m.pictures[p]) : "");
   }
   return materials;
 }
@@ -533,7 +605,7 @@ ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool y
   if (stem.starts_with('-') || stem.starts_with(' ')) stem[0] = '_';
   ObjFiles files;
   std::string& out = files.obj;
-  std::vector<MtlMaterial> materials;
+  std::vector<MtlEntry> materials;
   out.reserve(
       mesh.positions.size() * (mesh.hasColors() ? 100 : 60) +
       mesh.triangles.size() * (mesh.hasUvs() ? 60 : 24) +
@@ -543,6 +615,7 @@ ObjFiles formatObj(const TriangleMesh& mesh, const std::string& fileStem, bool y
     files.siblings.push_back({stem + ".mtl", formatMtl(materials)});
     out += "mtllib " + stem + ".mtl\n";
   }
+  if (!lineText(mesh.name).empty()) out += "o " + lineText(mesh.name) + "\n";
   const ShadingNormals normals = shadingNormals(mesh, wanted, progress.part(0, 0.2));
   appendVertices(out, mesh, yUp, progress.part(0.2, 0.4));
   const Progress triangles = progress.part(0.5, 1);

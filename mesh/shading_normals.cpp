@@ -8,9 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <span>
-#include <tuple>
 
 #include "core/parallel.h"
 
@@ -21,7 +19,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kGrain = 4096;
 /// Cosine of 40 degrees, less what floats round; and of about 155 degrees: facets that fold back
 /// onto each other have no normal in common.
-constexpr float kCrease = 0.766044f - 1e-5f, kFold = -0.9f;
+constexpr float kRounding = 1e-5f, kCrease = 0.766044f - kRounding, kFold = -0.9f;
 
 std::uint64_t hashPosition(const Vec3d& p) {
   std::uint64_t h = 0x9e3779b97f4a7c15u;
@@ -233,10 +231,11 @@ std::vector<std::uint32_t> firstOfEqual(const std::vector<Vec3d>& positions) {
   return first;
 }
 
-ShadingNormals shadingNormals(const TriangleMesh& mesh, MeshNormals mode,
-                              const Progress& progress) {
+namespace {
+
+/// Normals with hard edges where the cosine between faces is below `least`.
+ShadingNormals smoothNormals(const TriangleMesh& mesh, float least, const Progress& progress) {
   ShadingNormals out;
-  if (mode == MeshNormals::None) return out;
   const std::size_t m = mesh.triangles.size(), n = mesh.positions.size();
   progress.report("computing normals", 0);
   std::vector<Facet> facets(m);
@@ -246,7 +245,6 @@ ShadingNormals shadingNormals(const TriangleMesh& mesh, MeshNormals mode,
   });
   progress.report("computing normals", 0.3);
 
-  const float least = mode == MeshNormals::Crease ? kCrease : kFold;
   std::vector<std::uint32_t> first;
   Corners corners = cornersOf(mesh, [](std::uint32_t v) { return v; });
   std::vector<std::uint32_t> fan(3 * m);  // of each entry of `corners`
@@ -308,78 +306,18 @@ ShadingNormals shadingNormals(const TriangleMesh& mesh, MeshNormals mode,
   return out;
 }
 
-SplitVertices splitVertices(const TriangleMesh& mesh, const ShadingNormals& normals,
-                            const SplitOptions& options, const Progress& progress) {
-  SplitVertices out;
-  std::vector<std::uint32_t> first(mesh.positions.size(), options.keepUnused ? 0 : kNone);
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) first[v] = 0;
-  }
-  for (std::size_t v = 0; v < first.size(); ++v) {
-    if (first[v] == kNone) continue;
-    first[v] = static_cast<std::uint32_t>(out.source.size());
-    out.source.push_back(static_cast<std::uint32_t>(v));
-  }
-  out.originals = out.source.size();
-  out.triangles.reserve(mesh.triangles.size());
-  const bool hasUvs = options.uvs && mesh.hasUvs(), hasNormals = !normals.corners.empty();
-  if (!hasUvs && !hasNormals) {
-    for (const auto& [a, b, c] : mesh.triangles)
-      out.triangles.push_back({first[a], first[b], first[c]});
-    return out;
-  }
-  // Copies of one vertex form a list: next[i] is the copy after vertex i of the file. The copies
-  // behind a long list are in a map, so that a vertex with very many costs no square of them.
-  constexpr int kLongestList = 16;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, float, float>, std::uint32_t> further;
-  std::vector<std::uint32_t> normal, next(out.source.size(), kNone);
-  std::vector<bool> isSet(out.source.size(), false);
-  if (hasUvs) out.uvs.resize(out.source.size());
-  if (hasNormals) normal.resize(out.source.size(), kNone);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (t % 16384 == 0) progress.check();
-    auto& triangle = out.triangles.emplace_back();
-    for (int c = 0; c < 3; ++c) {
-      const std::uint32_t v = mesh.triangles[t][c];
-      const Vec2f uv = hasUvs ? mesh.uvs[t][c] : Vec2f{};
-      const std::uint32_t n = hasNormals ? normals.corners[t][c] : kNone;
-      const auto fits = [&](std::uint32_t i) {
-        return (!hasUvs || out.uvs[i] == uv) && (!hasNormals || normal[i] == n);
-      };
-      std::uint32_t i = first[v];
-      if (!isSet[i]) {
-        isSet[i] = true;
-        if (hasUvs) out.uvs[i] = uv;
-        if (hasNormals) normal[i] = n;
-      }
-      int steps = 0;
-      for (; !fits(i) && next[i] != kNone; ++steps) i = next[i];
-      if (!fits(i)) {
-        const std::uint32_t copy = static_cast<std::uint32_t>(out.source.size());
-        if (steps < kLongestList) {
-          next[i] = copy;
-        } else {
-          const auto [found, added] = further.try_emplace({v, n, uv.x, uv.y}, copy);
-          if (!added) {
-            triangle[c] = found->second;
-            continue;
-          }
-        }
-        i = copy;
-        out.source.push_back(v);
-        if (hasUvs) out.uvs.push_back(uv);
-        if (hasNormals) normal.push_back(n);
-        next.push_back(kNone);
-        isSet.push_back(true);
-      }
-      triangle[c] = i;
-    }
-  }
-  if (!hasNormals) return out;
-  out.normals.reserve(normal.size());
-  for (const std::uint32_t n : normal)
-    out.normals.push_back(n == kNone ? Vec3f{0, 0, 1} : normals.normals[n]);
-  return out;
+}  // namespace
+
+ShadingNormals shadingNormals(const TriangleMesh& mesh, MeshNormals mode,
+                              const Progress& progress) {
+  if (mode == MeshNormals::None) return {};
+  return smoothNormals(mesh, mode == MeshNormals::Crease ? kCrease : kFold, progress);
+}
+
+ShadingNormals shadingNormals(const TriangleMesh& mesh, double creaseAngle,
+                              const Progress& progress) {
+  return smoothNormals(mesh, std::max(static_cast<float>(std::cos(creaseAngle)) - kRounding, kFold),
+                       progress);
 }
 
 }  // namespace exemplar

@@ -37,24 +37,9 @@ struct ShadingNormals {
 ShadingNormals shadingNormals(const TriangleMesh& mesh, MeshNormals normals,
                               const Progress& progress = {});
 
-/// The vertices of a file that has one normal, and one texture coordinate, for each vertex: those
-/// of the mesh, in their order, and behind them copies of the ones that need several.
-struct SplitVertices {
-  std::vector<std::uint32_t> source;  ///< each one's vertex in the mesh
-  std::size_t originals = 0;          ///< vertices before the first copy
-  std::vector<Vec2f> uvs;             ///< as many, or none
-  std::vector<Vec3f> normals;         ///< as many, or none
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
-struct SplitOptions {
-  bool uvs = true;          ///< split where texture coordinates differ
-  bool keepUnused = false;  ///< vertices that no triangle uses; their normal points up
-};
-
-/// `normals` may be empty. Deterministic; O(n). Throws `Cancelled`.
-SplitVertices splitVertices(const TriangleMesh& mesh, const ShadingNormals& normals,
-                            const SplitOptions& options = {}, const Progress& progress = {});
+/// The same with hard edges where faces meet at more than `creaseAngle` (radians, 0..pi).
+ShadingNormals shadingNormals(const TriangleMesh& mesh, double creaseAngle,
+                              const Progress& progress = {});
 
 /// For each position the index of the first one that is equal to it.
 std::vector<std::uint32_t> firstOfEqual(const std::vector<Vec3d>& positions);

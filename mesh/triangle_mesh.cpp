@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <unordered_map>
 
 #include "core/error.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 /// Where the sum of three squares and a cross product of differences still stay far from overflow.
 constexpr double kLargestCoordinate = 1e15;
+constexpr std::uint32_t kUnknown = std::numeric_limits<std::uint32_t>::max();
 
 bool allFinite(const std::array<float, 4>& c) {
   return std::isfinite(c[0]) && std::isfinite(c[1]) && std::isfinite(c[2]) && std::isfinite(c[3]);
@@ -45,12 +47,35 @@ std::uint32_t addTexture(std::vector<Texture>& textures, const Texture& texture)
   return static_cast<std::uint32_t>(textures.size() - 1);
 }
 
-std::uint32_t addMaterial(std::vector<Material>& materials, const Material& material) {
-  const auto found = std::find(materials.begin(), materials.end(), material);
-  if (found != materials.end()) return static_cast<std::uint32_t>(found - materials.begin());
-  materials.push_back(material);
-  return static_cast<std::uint32_t>(materials.size() - 1);
-}
+/// Adds materials to a mesh, equal ones once.
+class MaterialMerger {
+ public:
+  explicit MaterialMerger(std::vector<Material>& materials) : materials_(materials) {
+    for (std::uint32_t m = 0; m < materials.size(); ++m) byName_.emplace(keyOf(materials[m]), m);
+  }
+
+  std::uint32_t add(const Material& material) {
+    const auto [begin, end] = byName_.equal_range(keyOf(material));
+    std::uint32_t first = kUnknown;
+    for (auto it = begin; it != end; ++it)
+      if (materials_[it->second] == material) first = std::min(first, it->second);
+    if (first != kUnknown) return first;
+    const auto added = static_cast<std::uint32_t>(materials_.size());
+    materials_.push_back(material);
+    byName_.emplace(keyOf(material), added);
+    return added;
+  }
+
+ private:
+  static std::size_t keyOf(const Material& m) {
+    std::size_t key = std::hash<std::string>{}(m.name);
+    for (const float c : m.baseColor) key = key * 31 + std::hash<float>{}(c);
+    return key;
+  }
+
+  std::vector<Material>& materials_;
+  std::unordered_multimap<std::size_t, std::uint32_t> byName_;
+};
 
 /// Appends `from`, which covers `fromCount` elements, to `to`, which covers `toCount`;
 /// where only one of the two is there, the other's elements become `missing`.
@@ -91,6 +116,7 @@ void validate(const TriangleMesh& mesh, const std::string& name) {
   checkCount(mesh.colors.size(), vertices, "colors", "vertices", name);
   checkCount(mesh.uvs.size(), triangles, "texture coordinates", "triangles", name);
   checkCount(mesh.triangleMaterials.size(), triangles, "material indices", "triangles", name);
+  checkCount(mesh.sources.size(), triangles, "sources", "triangles", name);
   for (const auto& color : mesh.colors) {
     if (!allFinite(color)) throw InputError(name + ": a vertex color is NaN or infinite");
   }
@@ -118,6 +144,12 @@ void validate(const TriangleMesh& mesh, const std::string& name) {
                        std::to_string(*m.baseColorTexture) + " of " +
                        std::to_string(mesh.textures.size()));
     }
+    for (const std::uint32_t picture : m.pictures) {
+      if (picture >= mesh.textures.size()) {
+        throw InputError(name + ": material '" + m.name + "' names picture " +
+                         std::to_string(picture) + " of " + std::to_string(mesh.textures.size()));
+      }
+    }
   }
 }
 
@@ -144,26 +176,39 @@ void append(TriangleMesh& mesh, const TriangleMesh& other) {
   if (vertices + other.positions.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw InputError("the joined mesh would have more than 4294967295 vertices; use less of it");
   }
-  std::vector<std::uint32_t> materialOf;
-  for (Material material : other.materials) {
-    if (material.baseColorTexture) {
-      material.baseColorTexture =
-          addTexture(mesh.textures, other.textures[*material.baseColorTexture]);
-    }
-    materialOf.push_back(addMaterial(mesh.materials, material));
+  if (triangles == 0) {
+    mesh.name = other.name;
+    mesh.dataName = other.dataName;
   }
-  for (const Texture& texture : other.textures) addTexture(mesh.textures, texture);
+  std::vector<std::uint32_t> materialOf, textureOf(other.textures.size(), kUnknown);
+  const auto addOnce = [&](std::uint32_t t) {
+    if (textureOf[t] == kUnknown) textureOf[t] = addTexture(mesh.textures, other.textures[t]);
+    return textureOf[t];
+  };
+  MaterialMerger materials(mesh.materials);
+  for (Material material : other.materials) {
+    if (material.baseColorTexture) material.baseColorTexture = addOnce(*material.baseColorTexture);
+    for (std::uint32_t& picture : material.pictures) picture = addOnce(picture);
+    materialOf.push_back(materials.add(material));
+  }
+  for (std::uint32_t t = 0; t < other.textures.size(); ++t) addOnce(t);
 
   std::vector<std::uint32_t> otherMaterials(other.triangleMaterials);
   for (std::uint32_t& m : otherMaterials) m = materialOf[m];
   const bool fillMaterials =
       (mesh.hasMaterials() && !other.hasMaterials() && !other.triangles.empty()) ||
       (!mesh.hasMaterials() && other.hasMaterials() && triangles != 0);
-  const std::uint32_t defaultMaterial = fillMaterials ? addMaterial(mesh.materials, Material{}) : 0;
+  const std::uint32_t defaultMaterial = fillMaterials ? materials.add(Material{}) : 0;
   appendAttribute(mesh.triangleMaterials, triangles, otherMaterials, other.triangles.size(),
                   defaultMaterial);
   appendAttribute(mesh.colors, vertices, other.colors, other.positions.size(), {1, 1, 1, 1});
   appendAttribute(mesh.uvs, triangles, other.uvs, other.triangles.size(), {});
+  // A corner that came from nowhere cannot be said.
+  if (triangles != 0 && !other.triangles.empty() && mesh.sources.empty() != other.sources.empty()) {
+    mesh.sources.clear();
+  } else {
+    mesh.sources.insert(mesh.sources.end(), other.sources.begin(), other.sources.end());
+  }
 
   mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
   mesh.triangles.reserve(triangles + other.triangles.size());

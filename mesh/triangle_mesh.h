@@ -5,31 +5,21 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/vec.h"
+#include "mesh/material.h"
 
 namespace exemplar {
 
-/// A picture that materials refer to, kept as the file's own bytes so that it leaves as it came.
-struct Texture {
-  std::string name;      ///< file name or a name of its own; unique within a mesh
-  std::string mimeType;  ///< "image/png" or "image/jpeg"
-  std::string bytes;     ///< the encoded file; decode with `decodeImage`
-};
+/// The place of an example that a corner of a result came from.
+struct SourcePoint {
+  std::uint32_t triangle = 0;      ///< of the example, from 0 in the order of its file's faces
+  std::uint32_t example = 0;       ///< which of the examples, from 0
+  std::array<float, 2> weights{};  ///< of the triangle's first two corners; the third has the rest
 
-/// How a surface looks: the core of glTF 2.0's metallic-roughness model.
-struct Material {
-  std::string name;
-  std::array<float, 4> baseColor{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear RGB and opacity, 0..1
-  float metallic = 0.0f;                                   ///< 0 dielectric .. 1 metal
-  float roughness = 0.8f;                                  ///< 0 mirror .. 1 chalk
-  Vec3f emission{};                                        ///< linear RGB, 0..
-  std::optional<std::uint32_t> baseColorTexture;           ///< index into `TriangleMesh::textures`
-
-  bool operator==(const Material&) const = default;
+  bool operator==(const SourcePoint&) const = default;
 };
 
 /// Indexed triangles with materials, colors and texture coordinates: any soup a file can hold,
@@ -44,9 +34,14 @@ struct TriangleMesh {
   std::vector<std::array<float, 4>> colors;      ///< n or 0: linear RGBA a vertex, 0..1
   std::vector<std::array<Vec2f, 3>> uvs;         ///< m or 0: a corner's texture coordinates, v up
   std::vector<std::uint32_t> triangleMaterials;  ///< m or 0: indices into materials
+  /// m or 0: where each corner came from. Steps that change triangles drop it.
+  std::vector<std::array<SourcePoint, 3>> sources;
 
   std::vector<Material> materials;
   std::vector<Texture> textures;
+
+  std::string name;      ///< of the one object that a file holds; empty for none or several
+  std::string dataName;  ///< of that object's mesh, where a file names it apart (glTF)
 
   bool hasColors() const { return !colors.empty(); }
   bool hasUvs() const { return !uvs.empty(); }

@@ -3,9 +3,12 @@
 
 #include "preview/normals.h"
 
-#include <cmath>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
 #include <cstdint>
-#include <limits>
+#include <numeric>
+#include <utility>
 
 #include "core/parallel.h"
 #include "mesh/shading_normals.h"
@@ -13,75 +16,114 @@
 namespace exemplar {
 namespace {
 
-constexpr std::uint32_t kMostTriangles = 512;  // around one vertex; the work grows with its square
 constexpr std::size_t kGrain = 4096;
 
-struct Facet {
-  Vec3f normal;  // zero without area
-  std::array<float, 3> angles;
+/// A side of a triangle, between two places.
+struct Side {
+  std::uint32_t low, high, triangle;
+  bool rising;
+
+  bool sameEdge(const Side& other) const { return low == other.low && high == other.high; }
+  bool operator<(const Side& other) const {
+    if (low != other.low) return low < other.low;
+    if (high != other.high) return high < other.high;
+    return triangle < other.triangle || (triangle == other.triangle && rising < other.rising);
+  }
 };
 
-Facet facetOf(const TriangleMesh& mesh, std::size_t t) {
-  std::array<Vec3d, 3> p;
-  double largest = 0;
-  for (int c = 0; c < 3; ++c) p[c] = mesh.positions[mesh.triangles[t][c]];
-  for (int c = 0; c < 3; ++c)
-    for (int axis = 0; axis < 3; ++axis)
-      largest = std::max(largest, std::abs(p[c][axis] - p[0][axis]));
-  Facet facet{};
-  if (!(largest > std::numeric_limits<double>::min())) return facet;
-  // Edges of size 1, so that neither tiny nor huge coordinates leave the range of numbers.
-  std::array<Vec3d, 3> edges;
-  for (int c = 0; c < 3; ++c) edges[c] = (p[(c + 1) % 3] - p[c]) / largest;
-  const Vec3d area = cross(edges[0], -edges[2]);
-  if (!(length(area) > 0)) return facet;
-  facet.normal = cast<float>(normalized(area));
-  for (int c = 0; c < 3; ++c) {
-    const Vec3d out = edges[c], in = -edges[(c + 2) % 3];
-    facet.angles[c] = static_cast<float>(std::atan2(length(cross(out, in)), dot(out, in)));
+/// Sets of triangles, each with whether it is turned against the set's first one.
+class Windings {
+ public:
+  explicit Windings(std::size_t count) : parent_(count), turned_(count, 0) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
   }
-  return facet;
+
+  std::pair<std::uint32_t, bool> find(std::uint32_t t) {
+    std::uint32_t root = t;
+    std::uint8_t turned = 0;
+    while (parent_[root] != root) {
+      turned ^= turned_[root];
+      root = parent_[root];
+    }
+    for (std::uint8_t left = turned; parent_[t] != t && t != root;) {
+      const std::uint32_t next = parent_[t];
+      const std::uint8_t own = turned_[t];
+      parent_[t] = root;
+      turned_[t] = left;
+      left ^= own;
+      t = next;
+    }
+    return {root, turned != 0};
+  }
+
+  /// Nothing where they are in one set: a strip with a twist has no outside.
+  void join(std::uint32_t a, std::uint32_t b, bool against) {
+    const auto [rootA, turnedA] = find(a);
+    const auto [rootB, turnedB] = find(b);
+    if (rootA == rootB) return;
+    const auto [low, high] = std::minmax(rootA, rootB);
+    parent_[high] = low;
+    turned_[high] = turnedA != turnedB ? !against : against;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint8_t> turned_;  // against the parent
+};
+
+/// Which triangles to turn round so that each is wound as its neighbors are; empty for none.
+std::vector<bool> turnedRound(const TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> place = firstOfEqual(mesh.positions);
+  std::vector<Side> sides(3 * mesh.triangles.size());
+  parallelFor(0, mesh.triangles.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (int c = 0; c < 3; ++c) {
+        const std::uint32_t a = place[mesh.triangles[t][c]],
+                            b = place[mesh.triangles[t][(c + 1) % 3]];
+        sides[3 * t + c] = {std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(t), a < b};
+      }
+    }
+  });
+  tbb::parallel_sort(sides.begin(), sides.end());
+  Windings windings(mesh.triangles.size());
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].sameEdge(sides[begin])) ++end;
+    // Where several sheets meet, any two of them could belong together.
+    if (end - begin != 2 || sides[begin].low == sides[begin].high) continue;
+    windings.join(sides[begin].triangle, sides[begin + 1].triangle,
+                  sides[begin].rising == sides[begin + 1].rising);
+  }
+  std::vector<bool> turned(mesh.triangles.size());
+  bool any = false;
+  for (std::uint32_t t = 0; t < turned.size(); ++t) {
+    turned[t] = windings.find(t).second;
+    any = any || turned[t];
+  }
+  if (!any) turned.clear();
+  return turned;
 }
 
 }  // namespace
 
 std::vector<std::array<Vec3f, 3>> cornerNormals(const TriangleMesh& mesh, double creaseAngle) {
-  const std::size_t m = mesh.triangles.size();
-  std::vector<Facet> facets(m);
-  parallelFor(0, m, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) facets[t] = facetOf(mesh, t);
-  });
-
-  // The corners (3 t + c) around each position, in rising order.
-  const std::vector<std::uint32_t> vertex = firstOfEqual(mesh.positions);
-  std::vector<std::size_t> start(mesh.positions.size() + 1, 0);
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t v : triangle) ++start[vertex[v] + 1];
-  for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
-  std::vector<std::size_t> corners(3 * m), next(start.begin(), start.end() - 1);
-  for (std::size_t corner = 0; corner < 3 * m; ++corner)
-    corners[next[vertex[mesh.triangles[corner / 3][corner % 3]]]++] = corner;
-
-  const float crease = static_cast<float>(std::cos(creaseAngle));
-  std::vector<std::array<Vec3f, 3>> normals(m);
-  parallelFor(0, m, kGrain, [&](std::size_t begin, std::size_t end) {
+  const std::vector<bool> turned = turnedRound(mesh);
+  TriangleMesh wound;
+  if (!turned.empty()) {
+    wound.positions = mesh.positions;
+    wound.triangles = mesh.triangles;
+    for (std::size_t t = 0; t < turned.size(); ++t)
+      if (turned[t]) std::swap(wound.triangles[t][1], wound.triangles[t][2]);
+  }
+  const ShadingNormals shading = shadingNormals(turned.empty() ? mesh : wound, creaseAngle);
+  std::vector<std::array<Vec3f, 3>> normals(mesh.triangles.size());
+  parallelFor(0, normals.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      const Vec3f own = facets[t].normal;
+      const bool isTurned = !turned.empty() && turned[t];
+      const Vec3f own = cast<float>(normalized(areaNormal(mesh, t)));
       for (int c = 0; c < 3; ++c) {
-        const std::uint32_t v = vertex[mesh.triangles[t][c]];
-        if (own == Vec3f{} || start[v + 1] - start[v] > kMostTriangles) {
-          normals[t][c] = own;
-          continue;
-        }
-        Vec3f sum{};
-        for (std::size_t k = start[v]; k < start[v + 1]; ++k) {
-          const Facet& facet = facets[corners[k] / 3];
-          const float cosine = dot(own, facet.normal);
-          if (corners[k] / 3 == t || std::abs(cosine) > crease)
-            sum += facet.normal * std::copysign(facet.angles[corners[k] % 3], cosine);
-        }
-        const Vec3f mean = normalized(sum);
-        normals[t][c] = dot(mean, own) > 0 ? mean : own;
+        const Vec3f& normal = shading.normals[shading.corners[t][isTurned && c > 0 ? 3 - c : c]];
+        const Vec3f facing = isTurned ? -normal : normal;
+        normals[t][c] = dot(facing, own) > 0 ? facing : own;
       }
     }
   });

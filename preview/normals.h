@@ -10,15 +10,13 @@
 
 namespace exemplar {
 
-/// A unit normal for each corner of each triangle (m): the mean of the normals of the triangles
-/// around the vertex that meet this one at less than `creaseAngle` (radians), weighted by their
-/// angles at the vertex (G. Thuermer and C. A. Wuethrich, "Computing vertex normals from polygonal
-/// facets", Journal of Graphics Tools 3(1), 1998, doi:10.1080/10867651.1998.10487487).
+/// A unit normal for each corner of each triangle (m): those that files get (`shadingNormals`), so
+/// that pictures show what other programs will.
 ///
-/// Different from there: vertices of equal position count as one, so that a soup is smooth too, and
-/// a neighbor that is wound the other way counts with its normal turned round. Corners of triangles
-/// without area are zero. Where more than 512 triangles meet, corners keep their own facet's
-/// normal. O(m) for bounded valence; the same at any number of threads.
+/// Different from there: triangles that are wound the other way than their neighbors are turned
+/// round first, so that a soup is smooth, too, and each corner's normal is on its own triangle's
+/// side. A corner whose normal would be behind its triangle keeps the facet's. O(m log m); the same
+/// at any number of threads.
 std::vector<std::array<Vec3f, 3>> cornerNormals(const TriangleMesh& mesh, double creaseAngle);
 
 }  // namespace exemplar

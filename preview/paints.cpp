@@ -27,7 +27,8 @@ Paint Paints::at(std::uint32_t triangle, float u, float v) const {
         at.x += mesh_.uvs[triangle][c].x * share[c];
         at.y += mesh_.uvs[triangle][c].y * share[c];
       }
-      paint.color = scaled(paint.color, textures_[*m.baseColorTexture]->at(at));
+      paint.color =
+          scaled(paint.color, textures_[*m.baseColorTexture]->at(m.baseColorTransform.apply(at)));
     }
   } else if (mesh_.hasColors()) {
     paint.color = {1, 1, 1};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/origin.h"
 #include "core/progress.h"
@@ -28,14 +29,24 @@ struct ReconstructOptions {
   double simplify = 0;
   /// Stop merging at this many triangles, >= 0; with `simplify` 0, merge until there are no more.
   std::int64_t triangles = 0;
+  /// How many coarser copies are made, 0..8, each with a quarter of the triangles of the one
+  /// before as far as its shape allows. Not where the field wraps.
+  int lods = 0;
   TransferOptions appearance;
+};
+
+/// A surface with fewer triangles.
+struct CoarserSurface {
+  TriangleMesh mesh;
+  MeshHealth health;
 };
 
 struct Reconstruction {
   TriangleMesh mesh;
   MeshHealth health;
-  std::int64_t contoured = 0;  ///< triangles before they were merged
-  FieldToMeshReport contour;   ///< without its health
+  std::vector<CoarserSurface> lods;  ///< the same surface coarser and coarser
+  std::int64_t contoured = 0;        ///< triangles before they were merged
+  FieldToMeshReport contour;         ///< without its health
 };
 
 /// From what a synthesis returns to what leaves the program: contours the field, and takes

@@ -117,7 +117,7 @@ std::array<float, 4> SurfaceColor::at(std::uint32_t triangle,
   if (!material.baseColorTexture || !mesh_.hasUvs()) return color;
 
   const Image8& image = images_[*material.baseColorTexture];
-  const Vec2f uv = textureCoordinates(mesh_, triangle, weights);
+  const Vec2f uv = material.baseColorTransform.apply(textureCoordinates(mesh_, triangle, weights));
   const Between x = between(uv.x, image.width);
   const Between y = between(-uv.y, image.height);  // rows come from the top
   const auto t00 = texel(image, x.first, y.first), t10 = texel(image, x.second, y.first);

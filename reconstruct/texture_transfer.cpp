@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <utility>
 
+#include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
 #include "reconstruct/material_borders.h"
 #include "reconstruct/texture_charts.h"
-#include "core/loop_progress.h"
 
 namespace exemplar {
 namespace {
@@ -54,6 +55,53 @@ void joinNeighbors(const TriangleMesh& result, const std::vector<Vec3d>& triangl
     });
     sources = std::move(next);
   }
+}
+
+/// Where a corner came from; where its motion finds no place, the middle of its triangle's source.
+SourcePoint sourcePoint(const std::optional<Match>& match, const TriangleSources& sources,
+                        std::uint32_t t, const ExampleAttributes& attributes) {
+  const std::uint32_t example = sources.motion[t].example;
+  if (!match) return {sources.triangle[t] - attributes.first[example], example, {1 / 3.f, 1 / 3.f}};
+  const auto& weights = match->point.weights;
+  return {match->point.triangle,
+          example,
+          {static_cast<float>(weights[0]), static_cast<float>(weights[1])}};
+}
+
+/// Calls `take(corner, match)` for each corner (3 t + c), with the match of `matchAt(vertex, t)`;
+/// corners of a vertex whose triangles have one motion and one chart share theirs. `charts` of the
+/// example's triangles, or none.
+template <class MatchAt, class Take>
+void matchCorners(const TriangleMesh& result, const TriangleSources& sources,
+                  const std::vector<std::uint32_t>& charts, const MatchAt& matchAt,
+                  const Take& take, const char* stage, const Progress& progress) {
+  const VertexCorners corners = vertexCorners(result.triangles, result.positions.size());
+  LoopProgress done(progress, stage, result.positions.size());
+  parallelFor(0, result.positions.size(), kGrain, [&](std::size_t v0, std::size_t v1) {
+    struct Known {
+      OriginMotion motion;
+      std::uint32_t chart;
+      std::optional<Match> match;
+    };
+    std::vector<Known> known;
+    for (std::size_t v = v0; v < v1; ++v) {
+      done.advance();
+      known.clear();
+      for (const std::uint32_t corner : corners.at(v)) {
+        const std::uint32_t t = corner / 3;
+        const std::uint32_t chart = charts.empty() ? 0 : charts[sources.triangle[t]];
+        const OriginMotion& motion = sources.motion[t];
+        auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) {
+          return k.chart == chart && k.motion == motion;
+        });
+        if (found == known.end()) {
+          found =
+              known.insert(known.end(), {motion, chart, matchAt(static_cast<std::uint32_t>(v), t)});
+        }
+        take(corner, found->match);
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -113,8 +161,8 @@ void transferTriangleMaterials(TriangleMesh& result, const OriginPullView& pull,
 
 void transferCoordinates(TriangleMesh& result, const std::vector<Vec3d>& normals,
                          const OriginPullView& pull, const ExampleAttributes& attributes,
-                         std::span<const ExampleView> examples, const Progress& progress,
-                         TriangleSources sources) {
+                         std::span<const ExampleView> examples, bool keepSources,
+                         const Progress& progress, TriangleSources sources) {
   constexpr const char* kStage = "taking texture coordinates from the example";
   progress.report(kStage, 0);
   std::vector<Vec3d> triangleNormals(result.triangles.size());
@@ -126,40 +174,37 @@ void transferCoordinates(TriangleMesh& result, const std::vector<Vec3d>& normals
   progress.report(kStage, 0.5);
   const TriangleMesh& example = *attributes.mesh;
   const std::vector<std::uint32_t> charts = textureCharts(example);
-  const VertexCorners corners = vertexCorners(result.triangles, result.positions.size());
   result.uvs.assign(result.triangles.size(), {});
-  LoopProgress done(progress.part(0.5, 1), kStage, result.positions.size());
-  parallelFor(0, result.positions.size(), kGrain, [&](std::size_t v0, std::size_t v1) {
-    struct Known {
-      OriginMotion motion;
-      std::uint32_t chart;
-      Vec2f uv;
-    };
-    std::vector<Known> known;
-    for (std::size_t v = v0; v < v1; ++v) {
-      done.advance();
-      known.clear();
-      for (const std::uint32_t corner : corners.at(v)) {
-        const std::uint32_t t = corner / 3, chart = charts[sources.triangle[t]];
-        const OriginMotion& motion = sources.motion[t];
-        auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) {
-          return k.chart == chart && k.motion == motion;
-        });
-        if (found == known.end()) {
-          const std::span<const std::uint32_t> groups(
-              charts.data() + attributes.first[motion.example],
-              examples[motion.example].mesh.triangles.size());
-          const auto match =
-              pull.matchUnder(motion, result.positions[v], normals[v], groups, chart);
-          const Vec2f uv =
-              match ? textureCoordinates(example, attributes.triangle(*match), match->point.weights)
-                    : Vec2f{};
-          found = known.insert(known.end(), {motion, chart, uv});
-        }
-        result.uvs[t][corner % 3] = found->uv;
-      }
+  if (keepSources) result.sources.assign(result.triangles.size(), {});
+  const auto matchAt = [&](std::uint32_t v, std::uint32_t t) {
+    const OriginMotion& motion = sources.motion[t];
+    const std::span<const std::uint32_t> groups(charts.data() + attributes.first[motion.example],
+                                                examples[motion.example].mesh.triangles.size());
+    return pull.matchUnder(motion, result.positions[v], normals[v], groups,
+                           charts[sources.triangle[t]]);
+  };
+  const auto take = [&](std::uint32_t corner, const std::optional<Match>& match) {
+    const std::uint32_t t = corner / 3, c = corner % 3;
+    if (match) {
+      result.uvs[t][c] =
+          textureCoordinates(example, attributes.triangle(*match), match->point.weights);
     }
-  });
+    if (keepSources) result.sources[t][c] = sourcePoint(match, sources, t, attributes);
+  };
+  matchCorners(result, sources, charts, matchAt, take, kStage, progress.part(0.5, 1));
+}
+
+void transferSources(TriangleMesh& result, const std::vector<Vec3d>& normals,
+                     const OriginPullView& pull, const TriangleSources& sources,
+                     const ExampleAttributes& attributes, const Progress& progress) {
+  result.sources.assign(result.triangles.size(), {});
+  const auto matchAt = [&](std::uint32_t v, std::uint32_t t) {
+    return pull.matchUnder(sources.motion[t], result.positions[v], normals[v]);
+  };
+  const auto take = [&](std::uint32_t corner, const std::optional<Match>& match) {
+    result.sources[corner / 3][corner % 3] = sourcePoint(match, sources, corner / 3, attributes);
+  };
+  matchCorners(result, sources, {}, matchAt, take, "finding where the surface came from", progress);
 }
 
 }  // namespace exemplar

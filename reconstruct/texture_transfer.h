@@ -27,10 +27,17 @@ void transferTriangleMaterials(TriangleMesh& result, const OriginPullView& pull,
                                TriangleSources& sources);
 
 /// Gives each corner texture coordinates, looked up where the triangle's motion takes it but inside
-/// the chart of the triangle's middle. `normals`: a unit normal per vertex.
+/// the chart of the triangle's middle; with `keepSources` the place of the example, too.
+/// `normals`: a unit normal per vertex.
 void transferCoordinates(TriangleMesh& result, const std::vector<Vec3d>& normals,
                          const OriginPullView& pull, const ExampleAttributes& attributes,
-                         std::span<const ExampleView> examples, const Progress& progress,
-                         TriangleSources sources);
+                         std::span<const ExampleView> examples, bool keepSources,
+                         const Progress& progress, TriangleSources sources);
+
+/// Gives each corner the place of the example where its triangle's motion takes it, for surfaces
+/// without texture coordinates. Each triangle has a source.
+void transferSources(TriangleMesh& result, const std::vector<Vec3d>& normals,
+                     const OriginPullView& pull, const TriangleSources& sources,
+                     const ExampleAttributes& attributes, const Progress& progress);
 
 }  // namespace exemplar

@@ -51,7 +51,7 @@ Plan makePlan(const TriangleMesh& example, TextureTransfer textures) {
   const bool textured =
       example.hasUvs() && example.hasMaterials() &&
       std::any_of(example.triangleMaterials.begin(), example.triangleMaterials.end(),
-                  [&](std::uint32_t m) { return example.materials[m].baseColorTexture; });
+                  [&](std::uint32_t m) { return example.materials[m].hasTextures(); });
   plan.coordinates =
       textures == TextureTransfer::Coordinates
           ? example.hasUvs()
@@ -88,6 +88,22 @@ void transferColors(TriangleMesh& result, const std::vector<Vec3d>& normals,
   });
 }
 
+/// Takes the base color's textures from materials without texture coordinates. The other ones stay
+/// with what the file said of them, unless textures are not wanted or baked.
+void dropTextures(TriangleMesh& result, TextureTransfer textures) {
+  bool any = false;
+  for (Material& material : result.materials) {
+    material.baseColorTexture.reset();
+    material.baseColorTransform = {};
+    if (textures != TextureTransfer::Automatic) {
+      material.source.reset();
+      material.pictures.clear();
+    }
+    any = any || material.hasTextures();
+  }
+  if (!any) result.textures.clear();
+}
+
 void check(const TransferOptions& options, std::span<const ExampleView> examples) {
   if (examples.empty()) throw InputError("no example is given to take materials from");
   for (const ExampleView& example : examples) validate(example.mesh, "example");
@@ -110,11 +126,10 @@ void transferAppearance(TriangleMesh& result, const DistanceField& field, const 
   result.uvs.clear();
   result.triangleMaterials.clear();
   result.materials = plan.materials ? example.materials : std::vector<Material>{};
-  result.textures = plan.coordinates ? example.textures : std::vector<Texture>{};
-  if (!plan.coordinates) {
-    for (Material& material : result.materials) material.baseColorTexture.reset();
-  }
-  if (!plan.colors && !plan.coordinates && !plan.materials) return;
+  result.textures = example.textures;
+  result.sources.clear();
+  if (!plan.coordinates) dropTextures(result, options.textures);
+  if (!plan.colors && !plan.coordinates && !plan.materials && !options.sources) return;
 
   progress.report("preparing the example", 0);
   const OriginPullView pull(field, origins, examples, options.blend, progress);
@@ -138,8 +153,13 @@ void transferAppearance(TriangleMesh& result, const DistanceField& field, const 
       vertexNormals(result, vertexCorners(result.triangles, result.positions.size()));
   for (Vec3d& n : normals) n = normalized(n);
   if (plan.coordinates) {
-    transferCoordinates(result, normals, pull, attributes, examples, progress.part(0.5, 0.8),
-                        std::move(sources));
+    transferCoordinates(result, normals, pull, attributes, examples, options.sources,
+                        progress.part(0.5, 0.8), std::move(sources));
+  } else if (options.sources) {
+    transferSources(
+        result, normals, pull,
+        matchTriangles(result, field, pull, attributes, false, true, progress.part(0.5, 0.65)),
+        attributes, progress.part(0.65, 0.8));
   }
   if (plan.colors) {
     transferColors(result, normals, pull, attributes, plan.bake, progress.part(0.8, 1));

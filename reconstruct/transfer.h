@@ -39,6 +39,8 @@ struct TransferOptions {
   /// Rounds in which a triangle takes the material of most of its neighbors, 0..100: lone
   /// triangles at seams go.
   int materialRounds = 2;
+  /// Keep for each corner the place of the example that it came from (`TriangleMesh::sources`).
+  bool sources = false;
 };
 
 /// Gives `result`, the surface of `field`, the materials, vertex colors and textures of the

@@ -75,7 +75,7 @@ class Palette {
           at.x += mesh_.uvs[triangle][c].x * static_cast<float>(weights[c]);
           at.y += mesh_.uvs[triangle][c].y * static_cast<float>(weights[c]);
         }
-        color = scaled(color, textures_[*m.baseColorTexture]->at(at));
+        color = scaled(color, textures_[*m.baseColorTexture]->at(m.baseColorTransform.apply(at)));
       }
     } else if (mesh_.hasColors()) {
       color = {1, 1, 1};

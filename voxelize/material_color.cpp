@@ -40,8 +40,13 @@ std::array<double, 3> meanColor(const Texture& texture) {
 
 std::vector<std::array<float, 4>> materialColors(const TriangleMesh& mesh) {
   if (!mesh.hasMaterials()) return {Material{}.baseColor};
-  std::vector<std::array<double, 3>> means;
-  for (const Texture& texture : mesh.textures) means.push_back(meanColor(texture));
+  std::vector<std::array<double, 3>> means(mesh.textures.size(), {1, 1, 1});
+  std::vector<bool> isMean(mesh.textures.size(), false);
+  for (const Material& material : mesh.materials) {
+    if (!material.baseColorTexture || isMean[*material.baseColorTexture]) continue;
+    means[*material.baseColorTexture] = meanColor(mesh.textures[*material.baseColorTexture]);
+    isMean[*material.baseColorTexture] = true;
+  }
   std::vector<std::array<float, 4>> colors;
   for (const Material& material : mesh.materials) {
     auto& color = colors.emplace_back(material.baseColor);

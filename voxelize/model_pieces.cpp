@@ -137,6 +137,7 @@ class PieceFinder {
     TriangleMesh& out = result_.mesh;
     out.materials = mesh_.materials;
     out.textures = mesh_.textures;
+    out.name = mesh_.name;
     const std::vector<std::array<float, 4>> colors = materialColors(mesh_);
     result_.first = {0, 0};
     for (std::size_t label = 1; label < shapes_.size(); ++label) {

@@ -52,7 +52,7 @@ PieceShape::PieceShape(const TriangleMesh& mesh, const CellCut& cut, std::size_t
     Attributes result{};
     const std::uint32_t material = mesh.hasMaterials() ? mesh.triangleMaterials[triangle] : 0;
     const bool textured = mesh.hasUvs() && mesh.hasMaterials() &&
-                          mesh.materials[material].baseColorTexture.has_value();
+                          mesh.materials[material].hasTextures();
     for (int c = 0; c < 3; ++c) {
       const auto w = static_cast<float>(weights[c]);
       if (textured) {

@@ -193,6 +193,71 @@ TEST(SynthCommand, NothingIsOverwrittenThatIsReadOrWrittenAlready) {
   EXPECT_EQ(readFile(folder / "e.ply"), before);
 }
 
+TEST(SynthCommand, SeveralOutputsAreOneRunAndAreCheckedBeforeIt) {
+  const TestFolder folder;
+  const std::string run = "synth " + scene("chainmail") + kQuick;
+  const auto several =
+      runExemplar(run + "-o a.glb -o b.vdb -o c.obj --stats s.json", folder.path());
+  ASSERT_EQ(several.status, 0) << several.err;
+  EXPECT_EQ(folder.files(), "a.glb b.vdb c.mtl c.obj s.json");
+  ASSERT_EQ(runExemplar(run + "-o d.glb", folder.path()).status, 0);
+  EXPECT_EQ(readFile(folder / "a.glb"), readFile(folder / "d.glb"));
+  EXPECT_EQ(readMesh(folder / "c.obj").triangles.size(),
+            readMesh(folder / "a.glb").triangles.size());
+  const auto stats = nlohmann::json::parse(readFile(folder / "s.json"));
+  EXPECT_EQ(stats["outputs"], nlohmann::json({"a.glb", "b.vdb", "c.obj"}));
+  // A mistake in the last one costs no work, and no file.
+  for (const std::string outputs :
+       {"-o n.glb -o n.xyz", "-o n.glb -o ./n.glb", "-o n.glb -o none/n.vdb",
+        "-o n_lod1.ply -o n.ply --lods 1", "-o n.glb -o n_lod2.glb --lods 2"}) {
+    const auto bad = runExemplar("synth missing.obj " + outputs, folder.path());
+    EXPECT_EQ(bad.status, 2) << outputs;
+    EXPECT_THAT(bad.err, testing::Not(testing::HasSubstr("missing.obj"))) << outputs;
+  }
+  EXPECT_EQ(folder.files(), "a.glb b.vdb c.mtl c.obj d.glb s.json");
+}
+
+TEST(SynthCommand, CoarserCopiesAndSourcesAreWrittenBesideTheMesh) {
+  const TestFolder folder;
+  const auto run =
+      runExemplar("synth " + scene("balls") + kQuick + "-o o.glb --lods 2 --source", folder.path());
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(folder.files(), "o.glb o_lod1.glb o_lod2.glb");
+  std::size_t before = 0;
+  for (const char* file : {"o.glb", "o_lod1.glb", "o_lod2.glb"}) {
+    const TriangleMesh mesh = readMesh(folder / file);
+    const MeshHealth health = meshHealth(mesh);
+    EXPECT_TRUE(health.closed() && health.manifold()) << file;
+    EXPECT_TRUE(mesh.hasMaterials()) << file;
+    EXPECT_EQ(mesh.name, "balls") << "after its example";
+    if (before > 0) EXPECT_LT(mesh.triangles.size(), before * 3 / 10) << file;
+    before = mesh.triangles.size();
+    for (const char* name : {"_SOURCE_FACE", "_SOURCE_WEIGHTS", "_SOURCE_EXAMPLE"})
+      EXPECT_THAT(readFile(folder / file), testing::HasSubstr(name)) << file;
+  }
+  const auto ply =
+      runExemplar("synth " + scene("balls") + kQuick + "-o o.ply --source", folder.path());
+  EXPECT_THAT(ply.err,
+              testing::HasSubstr("o.ply: left out, as this format cannot hold it: sources"));
+  // Of the volume, too, and to several files.
+  ASSERT_EQ(
+      runExemplar("synth " + scene("balls") + kQuick + "-o v.vdb --origins g.vdb", folder.path())
+          .status,
+      0);
+  const auto mesh = runExemplar("mesh v.vdb --origins g.vdb --example " + scene("balls") + kQuick +
+                                    "-o m.glb -o m.obj --lods 1 --source",
+                                folder.path());
+  ASSERT_EQ(mesh.status, 0) << mesh.err;
+  EXPECT_EQ(readFile(folder / "m.glb"), readFile(folder / "o.glb"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "m_lod1.obj"));
+  const auto bare = runExemplar("mesh v.vdb -o b.stl --triangles 1000", folder.path());
+  EXPECT_EQ(bare.status, 0) << bare.err;
+  EXPECT_LE(readMesh(folder / "b.stl").triangles.size(), 1000u);
+  EXPECT_EQ(runExemplar("mesh v.vdb -o v.vdb", folder.path()).status, 2);
+  EXPECT_EQ(runExemplar("mesh v.vdb -o b.ply --source", folder.path()).status, 2);
+  EXPECT_EQ(runExemplar("mesh v.vdb -o b.ply -o ./b.ply", folder.path()).status, 2);
+}
+
 TEST(SynthCommand, SaysWhichSettingsHaveNoMeaningForTheExample) {
   const TestFolder folder;
   ASSERT_EQ(

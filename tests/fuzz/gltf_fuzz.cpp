@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
 #include "fuzz_reader.h"
+#include "mesh/across_formats.h"
 #include "mesh/mesh_formats.h"
 
 namespace {
@@ -12,7 +13,13 @@ void read(std::string_view bytes) {
       .name = "f.gltf",
       .sibling = [&](const std::string&) { return std::string(bytes); },
       .warnings = &warnings};
-  exemplar::validate(exemplar::parseGltf(bytes, source), "f.gltf");
+  const exemplar::TriangleMesh mesh = exemplar::parseGltf(bytes, source);
+  exemplar::validate(mesh, "f.gltf");
+  // Whatever was read can be written, with its materials as they came and as the other kind's.
+  exemplar::formatGlb(mesh, true);
+  exemplar::formatObj(mesh, "f", true);
+  exemplar::lostIn(".glb", mesh);
+  exemplar::lostIn(".obj", mesh);
 }
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace exemplar {
 namespace {
 
 TEST(Mtl, NumbersComeBackExactly) {
-  std::vector<MtlMaterial> materials(2);
+  std::vector<MtlEntry> materials(2);
   Material& rich = materials[0].material;
   rich.name = "a b";
   rich.baseColor = {0.1f, 1 / 3.0f, 1e-7f, 0.3f};

@@ -16,6 +16,7 @@
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
 #include "mesh/primitives.h"
+#include "mesh/split_vertices.h"
 #include "mesh_samples.h"
 
 namespace exemplar {
@@ -161,8 +162,7 @@ TEST(ShadingNormals, AHubOfManyHardEdgesTakesNoSquareOfThem) {
     mesh.positions.push_back({std::cos(angle), std::sin(angle), 1});
     mesh.triangles.push_back({0, n, n + 1});
   }
-  const SplitVertices split =
-      splitVertices(mesh, shadingNormals(mesh, MeshNormals::Crease), {}, {});
+  const SplitVertices split = splitVertices(mesh, shadingNormals(mesh, MeshNormals::Crease));
   EXPECT_EQ(split.source.size(), mesh.positions.size() + 99999);
 }
 

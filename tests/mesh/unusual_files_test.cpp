@@ -215,16 +215,17 @@ TEST(UnusualObj, WhatIsNotThereIsSaid) {
   };
   Read r = withLibrary("newmtl a\nmap_Kd t.tga\n");
   EXPECT_THAT(r.warnings,
-              ElementsAre("f.obj: the texture t.tga is neither PNG nor JPEG and is left out"));
+              ElementsAre("f.obj: the texture t.tga is neither PNG nor JPEG: it is copied with its "
+                          "material, and not shown"));
   EXPECT_FALSE(r.mesh.materials[0].baseColorTexture);
   EXPECT_THAT(withLibrary("newmtl a\nmap_Kd gone.png\n").warnings,
               ElementsAre("f.obj: the texture gone.png is not found and is left out"));
-  // Light comes with its map or not at all; other maps are named once.
+  // Light comes with its map or not at all.
   EXPECT_EQ(withLibrary("newmtl a\nmap_Kd \"t.png\"\n").mesh.textures.size(), 1u) << "in quotes";
   r = withLibrary("newmtl a\nKe 1 1 1\nmap_Ke t.png\nmap_Bump -bm 1 t.png\nMAP_KD t.png # x\n");
   EXPECT_EQ(r.mesh.materials[0].emission, (Vec3f{0, 0, 0}));
   EXPECT_TRUE(r.mesh.materials[0].baseColorTexture.has_value());
-  EXPECT_THAT(r.warnings, ElementsAre("f.obj: maps that are not read: map_bump, map_ke"));
+  EXPECT_THAT(r.warnings, IsEmpty()) << "other maps are kept with the material";
   EXPECT_THAT(withLibrary("newmtl other\nmap_Bump t.png\nnewmtl a\nKd 1 0 0\n").warnings, IsEmpty())
       << "no face uses that one";
   // A bad line costs that line only.

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "mesh/primitives.h"
+#include "sdf/example_surface.h"
 #include "sdf/mesh_to_sdf.h"
 #include "tests/reconstruct/fields.h"
 #include "tests/sdf/cancellation.h"
@@ -83,6 +84,39 @@ TEST(ReconstructSurface, MergesTrianglesAndStaysSoundWithItsMaterials) {
   EXPECT_TRUE(few.health.closed());
 }
 
+TEST(ReconstructSurface, CoarserCopiesHaveAQuarterEachAndStayNear) {
+  const Blocks blocks;
+  const ReconstructExample example{blocks.exampleField, &blocks.example};
+  // The example itself: what a poor synthesis returns has steps that no coarse surface follows.
+  const Origins origins = identityOrigins(blocks.exampleField.size());
+  const Reconstruction made =
+      reconstructSurface(blocks.exampleField, origins, example, {.lods = 3});
+  const Reconstruction whole = reconstructSurface(blocks.exampleField, origins, example);
+  EXPECT_EQ(made.mesh.triangles, whole.mesh.triangles) << "the surface itself is as without";
+  ASSERT_EQ(made.lods.size(), 3u);
+  const ExampleSurface surface(made.mesh);
+  auto before = static_cast<double>(made.mesh.triangles.size());
+  for (const CoarserSurface& lod : made.lods) {
+    const auto triangles = static_cast<double>(lod.mesh.triangles.size());
+    EXPECT_LT(triangles, 0.3 * before);
+    EXPECT_GT(triangles, 0.15 * before);
+    before = triangles;
+    EXPECT_TRUE(lod.health.closed() && lod.health.manifold() && lod.health.oriented());
+    EXPECT_TRUE(lod.mesh.hasColors() && lod.mesh.hasMaterials());
+    if (&lod != &made.lods.front()) continue;
+    // At a quarter: points of the coarse surface are within half a voxel of the whole one.
+    for (const auto& [a, b, c] : lod.mesh.triangles) {
+      const auto& p = lod.mesh.positions;
+      for (const Vec3d& point : {p[a], (p[a] + p[b]) / 2.0, (p[a] + p[b] + p[c]) / 3.0})
+        EXPECT_LT(surface.closest(point)->distance, 0.5 * blocks.exampleField.voxelSize);
+    }
+  }
+  ReconstructOptions periodic{.lods = 1};
+  periodic.contour.wraps = Axes{true, false, false};
+  EXPECT_THROW(reconstructSurface(blocks.exampleField, origins, example, periodic), InputError);
+  EXPECT_THROW(reconstructSurface(blocks.exampleField, origins, example, {.lods = 9}), InputError);
+}
+
 TEST(ReconstructSurface, WithoutTrianglesThereIsNothingToCarry) {
   const Blocks blocks;
   const Reconstruction result =
@@ -95,7 +129,10 @@ TEST(ReconstructSurface, IsTheSameAtAnyNumberOfThreads) {
   const Blocks blocks;
   Reconstruction one, eight;
   const auto run = [&] {
-    return reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField, &blocks.example});
+    ReconstructOptions options{.lods = 1};
+    options.appearance.sources = true;
+    return reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField, &blocks.example},
+                              options);
   };
   tbb::task_arena(1).execute([&] { one = run(); });
   tbb::task_arena(8).execute([&] { eight = run(); });
@@ -103,6 +140,9 @@ TEST(ReconstructSurface, IsTheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(one.mesh.triangles, eight.mesh.triangles);
   EXPECT_EQ(one.mesh.colors, eight.mesh.colors);
   EXPECT_EQ(one.mesh.triangleMaterials, eight.mesh.triangleMaterials);
+  EXPECT_EQ(one.mesh.sources, eight.mesh.sources);
+  EXPECT_EQ(one.lods.at(0).mesh.positions, eight.lods.at(0).mesh.positions);
+  EXPECT_EQ(one.lods.at(0).mesh.triangles, eight.lods.at(0).mesh.triangles);
 }
 
 TEST(ReconstructSurface, RefusesOriginsOfAnotherSynthesis) {
@@ -126,6 +166,11 @@ TEST(ReconstructSurface, ReportsItsProgressAndStopsWhereItIsCancelled) {
                        progress);
   };
   expectReportsAndStops(dressed, 40);
+  const auto coarser = [&](const Progress& progress) {
+    reconstructSurface(blocks.field, blocks.origins, {blocks.exampleField, &blocks.example},
+                       {.lods = 2}, progress);
+  };
+  expectReportsAndStops(coarser, 40);
 }
 
 }  // namespace

@@ -447,6 +447,67 @@ TEST(TransferAppearance, CoordinatesAreKeptWithoutATextureAsWithOne) {
   EXPECT_FALSE(bare.result.hasMaterials());
 }
 
+/// The place of an example that a source names.
+Vec3d placeOf(const TriangleMesh& example, const SourcePoint& source) {
+  const auto& [a, b, c] = example.triangles.at(source.triangle);
+  const double u = source.weights[0], v = source.weights[1];
+  return example.positions[a] * u + example.positions[b] * v + example.positions[c] * (1 - u - v);
+}
+
+TEST(TransferAppearance, SourcesNameThePlacesThatEverythingComesFrom) {
+  for (const bool textured : {true, false}) {
+    TriangleMesh cube = texturedCube();
+    if (!textured) cube.uvs.clear();
+    Sample s(cube, 24);
+    transferAppearance(s.result, s.field, identityOrigins(s.field.size()), s.example, s.field,
+                       {.sources = true});
+    ASSERT_EQ(s.result.sources.size(), s.result.triangles.size());
+    EXPECT_EQ(s.result.hasUvs(), textured);
+    for (std::size_t t = 0; t < s.result.triangles.size(); ++t) {
+      for (int c = 0; c < 3; ++c) {
+        const SourcePoint& source = s.result.sources[t][c];
+        EXPECT_EQ(source.example, 0u);
+        const Vec3d& p = s.result.positions[s.result.triangles[t][c]];
+        // A contour is within a voxel of its example, and corners keep inside their triangle's
+        // chart, the diagonal of a voxel away at most.
+        EXPECT_LT(length(placeOf(cube, source) - p), 2 * s.field.voxelSize);
+        if (!textured) continue;
+        const Vec2f* uv = cube.uvs[source.triangle].data();
+        const float u = source.weights[0], v = source.weights[1], w = 1 - u - v;
+        EXPECT_NEAR(s.result.uvs[t][c].x, u * uv[0].x + v * uv[1].x + w * uv[2].x, 1e-5);
+        EXPECT_NEAR(s.result.uvs[t][c].y, u * uv[0].y + v * uv[1].y + w * uv[2].y, 1e-5);
+      }
+    }
+    transferAppearance(s.result, s.field, identityOrigins(s.field.size()), s.example, s.field);
+    EXPECT_TRUE(s.result.sources.empty()) << "unless they are asked for";
+  }
+}
+
+TEST(TransferAppearance, MaterialsKeepWhatTheirFileSaid) {
+  TriangleMesh cube = texturedCube();
+  cube.materials[0].source = std::make_shared<MaterialSource>(
+      MaterialSource{MaterialSource::Format::Gltf, R"({"material":{"doubleSided":true}})"});
+  cube.materials[0].pictures = {0};
+  cube.materials[0].baseColorTexture.reset();
+  Sample s(cube, 16);
+  const auto transfer = [&](TextureTransfer textures) {
+    transferAppearance(s.result, s.field, identityOrigins(s.field.size()), s.example, s.field,
+                       {.textures = textures});
+    validate(s.result, "result");
+  };
+  transfer(TextureTransfer::Automatic);
+  EXPECT_EQ(s.result.materials, cube.materials);
+  EXPECT_TRUE(s.result.hasUvs()) << "maps need coordinates as the base color's texture does";
+  EXPECT_EQ(s.result.textures.size(), 1u);
+  transfer(TextureTransfer::Drop);
+  EXPECT_FALSE(s.result.materials[0].source);
+  EXPECT_TRUE(s.result.textures.empty());
+  // Without coordinates the rest of it stays.
+  s.example.uvs.clear();
+  transfer(TextureTransfer::Automatic);
+  EXPECT_EQ(s.result.materials, cube.materials);
+}
+
 TEST(TransferAppearance, CoordinatesThatAreTheSameEverywhereAreDropped) {
   TriangleMesh cube = texturedCube();
   cube.textures.clear();
