@@ -229,7 +229,7 @@ std::vector<Written> writeLods(const fs::path& path, const Surface& surface,
   const auto count = static_cast<double>(surface.lods.size());
   for (const CoarserSurface& lod : surface.lods) {
     const auto n = static_cast<double>(written.size());
-    written.push_back(writeTriangles(lodPath(path, static_cast<int>(n) + 1), lod.mesh, lod.health,
+    written.push_back(writeTriangles(lodPath(path, static_cast<int>(n) + 1), lod.mesh, {}, lod.health,
                                      "coarser", options.mesh,
                                      progress.part(n / count, (n + 1) / count)));
   }
