@@ -197,7 +197,7 @@ class ContinuousEngine final : public Engine {
         "figures", withThousands(static_cast<long long>(s.figures)) + " of " +
                        withThousands(static_cast<long long>(s.directions)) + " directions, " +
                        withThousands(static_cast<long long>(s.freeVertices)) + " free vertices");
-    if (made.model.polygons.empty())
+    if (s.shares[static_cast<int>(FigureClass::Empty)] == 1)
       result.warnings.push_back("the result is empty; try another `seed`, or a larger `density`");
     result.data = std::move(made.model);
     return result;
