@@ -17,10 +17,12 @@ namespace {
 using namespace continuous;
 
 enum class Method { Auto, Whole, Blocks };
+enum class Floating { Auto, Keep, Remove };
 
 struct ContinuousSettings {
   ContinuousOptions options;
   Method method = Method::Auto;
+  Floating floating = Floating::Auto;
   std::vector<std::string> thin;
 };
 
@@ -54,6 +56,11 @@ const SettingTable<ContinuousSettings>& continuousSettings() {
           "spacings"),
       settingRow<O>("rounds", [](O & o) -> auto& { return o.options.rounds; },
                     "how often all blocks are made anew", {1, 1000}),
+      choiceRow<O, Floating>(
+          "floating", [](O & o) -> auto& { return o.floating; },
+          "solids that hang in the air over the ground: keep them, remove them, or remove them "
+          "where the example has none",
+          {{"auto", Floating::Auto}, {"keep", Floating::Keep}, {"remove", Floating::Remove}}),
       {{.key = "thin",
         .type = SettingType::Text,
         .meaning = "MATERIAL=AXIS: a material that is one spacing thick along x, y or z, or across "
@@ -92,6 +99,7 @@ ContinuousOptions optionsOf(const Request& request, ContinuousSettings settings,
   options.seed = request.seed;
   options.blocksOnly = settings.method == Method::Blocks;
   options.blocks = settings.method != Method::Whole;
+  if (settings.floating != Floating::Auto) options.floating = settings.floating == Floating::Keep;
   for (const std::string& text : settings.thin) {
     const std::string what = "`thin` " + text;
     const auto [name, axis] = keyAndValue(text, "`thin`", "MATERIAL=AXIS");
@@ -127,7 +135,8 @@ Statistics statisticsOf(const ContinuousStatistics& s, const Vec3i& size) {
                  {"failed_choices", s.failures},
                  {"blocks", s.blocks},
                  {"blocks_kept", s.blocksKept},
-                 {"exact_solver_calls", s.exact}};
+                 {"exact_solver_calls", s.exact},
+                 {"floating_removed", s.floating}};
   for (int c = 0; c < kFigureClasses; ++c) {
     const std::string name = figureClassName(static_cast<FigureClass>(c));
     all.emplace_back("example_share_" + name, s.exampleShares[c]);
@@ -188,7 +197,7 @@ class ContinuousEngine final : public Engine {
         "figures", withThousands(static_cast<long long>(s.figures)) + " of " +
                        withThousands(static_cast<long long>(s.directions)) + " directions, " +
                        withThousands(static_cast<long long>(s.freeVertices)) + " free vertices");
-    if (made.model.polygons.empty())
+    if (s.shares[static_cast<int>(FigureClass::Empty)] == 1)
       result.warnings.push_back("the result is empty; try another `seed`, or a larger `density`");
     result.data = std::move(made.model);
     return result;

@@ -12,6 +12,7 @@
 #include "synth/continuous/blocks.h"
 #include "synth/continuous/exact_search.h"
 #include "synth/continuous/filling.h"
+#include "synth/continuous/grounding.h"
 
 namespace exemplar::continuous {
 namespace {
@@ -104,8 +105,13 @@ class Synthesis {
         for (std::size_t w = 0; w < a.labels.size(); ++w)
           puzzle.domains[a.vertex][w] &= a.labels[w];
     }
+    const Domains allowed = puzzle.domains;
     solve(puzzle, open, demands, progress.part(0.4, 0.9));
     if (result_.outcome != Outcome::Complete) return std::move(result_);
+    if (grounded_) {
+      result_.statistics.floating =
+          removeFloating(puzzle, allowed, vertices_, example_.ground->substance, puzzle.domains);
+    }
 
     const LabelFilling filling(puzzle, puzzle.domains, example_.ground);
     result_.statistics.shares =
@@ -124,7 +130,15 @@ class Synthesis {
         planesIn(lattice_, windowOf(lattice_, sizeInSpacings(lattice_, example_)));
     const Arrangement own(planes, centrals, options_.mostVertices, progress.part(0, 0.5));
     const SolidsFilling filling(own, example_, progress.part(0.5, 1));
-    return countsOf(figuresOf(own, filling, figures), figures.size());
+    const std::vector<std::uint32_t> found = figuresOf(own, filling, figures);
+    if (example_.ground) {
+      grounded_ = !options_.floating.value_or(false);
+      if (!options_.floating) {
+        const Puzzle puzzle = makePuzzle(own, figures, example_.ground);
+        grounded_ = !anyFloats(puzzle, found, example_.ground->substance);
+      }
+    }
+    return countsOf(found, figures.size());
   }
 
   void noteSizes(const Puzzle& puzzle) {
@@ -203,7 +217,9 @@ class Synthesis {
 
   /// Weights that are learned in this puzzle where it is small, else in a smaller one.
   void learn(const Puzzle& puzzle, const Domains& consistent, const Progress& progress) {
-    const LearnOptions options{options_.learning, options_.density};
+    std::optional<Substance> ground;
+    if (grounded_) ground = example_.ground->substance;
+    const LearnOptions options{options_.learning, ground, options_.density};
     const Random random(options_.seed, stream::kFigureLearning);
     constexpr double kPilot = 6000;  // vertices
     const double factor = std::sqrt(kPilot / static_cast<double>(vertices_.size()));
@@ -370,6 +386,7 @@ class Synthesis {
   std::vector<FigureClass> classes_;     // of figures
   std::vector<std::uint32_t> vertices_;  // inner ones
   std::vector<double> weights_;          // of figures
+  bool grounded_ = false;                // nothing may hang in the air
   Domains start_{0, 1};                  // of blocks
   ContinuousResult result_;
 };

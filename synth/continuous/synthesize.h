@@ -51,13 +51,16 @@ struct ContinuousOptions {
   bool blocks = true;       ///< where no attempt succeeds
   std::vector<PlacedSubstance> placed;
   std::vector<Thickness> thin;
+  /// Whether solids may hang in the air over the ground; by default, where some of the example do.
+  std::optional<bool> floating;
   std::size_t mostVertices = 20'000'000;
 };
 
 struct ContinuousStatistics {
   std::size_t directions = 0, figures = 0, labels = 0, classes = 0;
   std::size_t vertices = 0, freeVertices = 0;
-  std::int64_t choices = 0, failures = 0, attempts = 0, blocks = 0, blocksKept = 0, exact = 0;
+  std::int64_t choices = 0, failures = 0, attempts = 0, blocks = 0, blocksKept = 0, exact = 0,
+               floating = 0;  // pieces in the air that were removed
   std::size_t polygons = 0;
   bool whole = false;                ///< in one pass, not in blocks
   Shares exampleShares{}, shares{};  ///< of classes of figures, at inner vertices

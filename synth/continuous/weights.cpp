@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "synth/continuous/grounding.h"
+
 namespace exemplar::continuous {
 namespace {
 
@@ -103,6 +105,7 @@ std::vector<double> learnWeights(const Puzzle& puzzle, const Domains& consistent
       const auto budget = 100 + static_cast<std::int64_t>(vertices.size()) / 50;
       if (search.run(random.fork(500 + number), budget) != Found::All) continue;
       ++succeeded;
+      if (options.ground) removeFloating(puzzle, consistent, vertices, *options.ground, domains);
       for (const std::uint32_t v : vertices) {
         const VertexClass& c = puzzle.classOf(v);
         forEach(domains[v], [&](std::size_t l) { made[c.figures[l]] += 1; });

@@ -42,7 +42,9 @@ Shares sharesOf(std::span<const FigureClass> classes, std::span<const double> co
 double largestFactor(const Shares& shares, const Shares& wanted);
 
 struct LearnOptions {
-  int rounds = 8;      ///< of trial results, >= 0; 0: weights are the example's counts
+  int rounds = 8;  ///< of trial results, >= 0; 0: weights are the example's counts
+  /// Where given, trial results lose what is not joined to this ground (`removeFloating`).
+  std::optional<Substance> ground;
   double density = 1;  ///< of all classes but the empty one, in shares of the example's, > 0
 };
 

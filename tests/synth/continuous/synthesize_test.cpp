@@ -289,6 +289,38 @@ TEST(SynthesizeSolids, IsAboutAsFullAsTheExample) {
   }
 }
 
+TEST(SynthesizeSolids, NothingHangsInTheAirUnlessTheExampleDoes) {
+  // A deck on legs: legs may end below a deck, and decks may be without any.
+  const char* text = R"(
+kind = "solids"
+ground = { height = 0, substance = "sea" }
+[[part]]
+substance = "leg"
+box = [1, 1, 0, 2, 2, 2]
+[[part]]
+substance = "deck"
+box = [0, 0, 2, 3, 3, 3]
+)";
+  const SolidScene scene = readSolidScene(text, "deck");
+  ContinuousOptions options;
+  options.size = {12, 12, 6};
+  options.learning = 2;
+  options.density = 2;
+  std::int64_t removed = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    options.seed = seed;
+    options.floating.reset();
+    const ContinuousResult grounded = synthesizeSolids(scene.solids, scene.looks, options);
+    ASSERT_EQ(grounded.outcome, Outcome::Complete);
+    EXPECT_EQ(meshHealth(triangulate(grounded.model)).components, 1) << seed;
+    EXPECT_TRUE(meshHealth(triangulate(grounded.model)).closed());
+    removed += grounded.statistics.floating;
+    options.floating = true;
+    EXPECT_EQ(synthesizeSolids(scene.solids, scene.looks, options).statistics.floating, 0);
+  }
+  EXPECT_GT(removed, 0);
+}
+
 TEST(SynthesizeSolids, CancellationIsThrown) {
   std::atomic<bool> cancel = true;
   const Solids solids = solidsOf("cube");
