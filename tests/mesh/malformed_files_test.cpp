@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "mesh/across_formats.h"
 #include "mesh/image.h"
 #include "mesh/mtl.h"
 #include "mesh_samples.h"
@@ -25,7 +26,14 @@ struct Sample {
 };
 
 Sample meshSample(const char* name, const std::string& ending, std::string bytes) {
-  return {name, std::move(bytes), [ending](std::string_view b) { parse(ending, b); }};
+  return {name, std::move(bytes), [ending](std::string_view b) {
+            // What was read can be written, as it came and as the other kind's.
+            const TriangleMesh mesh = parse(ending, b);
+            for (const char* to : {".glb", ".obj"}) {
+              format(to, mesh);
+              lostIn(to, mesh);
+            }
+          }};
 }
 
 std::vector<Sample> samples() {
@@ -61,6 +69,7 @@ std::vector<Sample> samples() {
       meshSample("off", ".off", off),
       meshSample("glb", ".glb", format(".glb", full)),
       meshSample("rich glb", ".glb", richGlb()),
+      meshSample("glb of materials", ".glb", squareGlb(kRichMaterial, "\"name\":\"plain\"")),
       {"mtl", mtl, [](std::string_view b) { parseMtl(b, "f.mtl"); }},
       {"png", tinyPng(), [](std::string_view b) { decodeImage(b, "f.png"); }},
       {"jpeg", tinyJpeg(), [](std::string_view b) { decodeImage(b, "f.jpg"); }},

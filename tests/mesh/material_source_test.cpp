@@ -60,67 +60,13 @@ struct Parts {
   json& primitive() { return root["meshes"][0]["primitives"][0]; }
 };
 
-/// A square of two triangles with two materials, and the pictures and textures that they name.
-std::string squareGlb(const std::string& first, const std::string& second,
-                      const std::string& more = "", const std::string& attributes = "") {
-  std::string binary;
-  const auto floats = [&](std::initializer_list<float> values) {
-    for (const float f : values) binary.append(reinterpret_cast<const char*>(&f), 4);
-  };
-  floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
-  floats({0, 0, 1, 0, 1, 1, 0, 1});
-  for (const std::uint16_t i : {0, 1, 2, 0, 2, 3})
-    binary.append(reinterpret_cast<const char*>(&i), 2);
-  const std::size_t png = binary.size();
-  binary += tinyPng();
-  const std::size_t jpeg = binary.size();
-  binary += tinyJpeg();
-  const auto view = [](std::size_t begin, std::size_t size) {
-    return R"({"buffer":0,"byteOffset":)" + std::to_string(begin) + R"(,"byteLength":)" +
-           std::to_string(size) + "}";
-  };
-  const std::string attribute =
-      R"({"attributes":{"POSITION":0,"TEXCOORD_0":1)" + attributes + R"(},"indices":)";
-  return makeGlb(
-      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
-"nodes":[{"mesh":0,"name":"Wand mit Übergröße"}],
-"meshes":[{"name":"Wand.001","primitives":[)" +
-          attribute + R"(2,"material":1},)" + attribute + R"(3,"material":2}]}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
-{"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"},
-{"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"},
-{"bufferView":3,"componentType":5123,"count":3,"type":"SCALAR"}],
-"bufferViews":[)" +
-          view(0, 48) + "," + view(48, 32) + "," + view(80, 6) + "," + view(86, 6) + "," +
-          view(png, tinyPng().size()) + "," + view(jpeg, tinyJpeg().size()) + R"(],
-"buffers":[{"byteLength":)" +
-          std::to_string(binary.size()) + R"(}],
-"images":[{"bufferView":4,"mimeType":"image/png","name":"rot.png"},
-{"bufferView":5,"mimeType":"image/jpeg","name":"grau.jpg"}],
-"samplers":[{"wrapS":33071,"magFilter":9728},{}],
-"textures":[{"source":0,"sampler":0,"name":"t"},{"source":1,"sampler":1},{"source":1},{"source":0,"extras":{"a":[1,2]}}],
-"materials":[{"name":"unused"},{)" +
-          first + "},{" + second + "}]" + more + "}",
-      binary);
-}
-
-const std::string kRich =
-    R"("name":"reich","doubleSided":true,"alphaMode":"MASK","alphaCutoff":0.25,"extras":{"id":7},
-"normalTexture":{"index":1,"scale":0.5},"occlusionTexture":{"index":2,"strength":0.75},
-"emissiveTexture":{"index":3},"emissiveFactor":[1,0.5,0.25],
-"pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.7,
-"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"offset":[0.5,0],"rotation":0.3,"scale":[2,3]}}},
-"metallicRoughnessTexture":{"index":2}},
-"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":3.5},
-"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatNormalTexture":{"index":1}},
-"VENDOR_materials_moss":{"mossTexture":{"index":0},"density":0.125,"list":[1,"a",null]}})";
 const std::string kPlain = R"("pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]})";
 const std::string kUsed =
     R"(,"extensionsUsed":["KHR_texture_transform","VENDOR_materials_moss","KHR_materials_clearcoat",
 "KHR_materials_emissive_strength","KHR_lights_punctual"],"extensionsRequired":["KHR_texture_transform"])";
 
 TEST(MaterialSource, AGlbGetsBackWhatAGlbSaid) {
-  const std::string file = squareGlb(kRich, kPlain, kUsed);
+  const std::string file = squareGlb(kRichMaterial, kPlain, kUsed);
   Warnings warnings;
   const TriangleMesh mesh = parse(".glb", file, false, &warnings);
   EXPECT_THAT(warnings, IsEmpty());
@@ -154,7 +100,7 @@ TEST(MaterialSource, NamesOfNodeAndMeshStay) {
 }
 
 TEST(MaterialSource, MembersStillSayHowPicturesShowIt) {
-  const TriangleMesh mesh = parse(".glb", squareGlb(kRich, kPlain));
+  const TriangleMesh mesh = parse(".glb", squareGlb(kRichMaterial, kPlain));
   const Material& m = mesh.materials.at(0);
   EXPECT_EQ(m.name, "reich");
   EXPECT_EQ(m.baseColor, (std::array<float, 4>{0.1f, 0.2f, 0.3f, 0.4f}));
@@ -212,7 +158,7 @@ TEST(MaterialSource, AMapWithoutItsPictureLeavesNoFactorBehind) {
 }
 
 TEST(MaterialSource, WithoutTextureCoordinatesThereAreNoTextures) {
-  TriangleMesh mesh = parse(".glb", squareGlb(kRich, kPlain));
+  TriangleMesh mesh = parse(".glb", squareGlb(kRichMaterial, kPlain));
   mesh.uvs.clear();
   const json root = Parts(formatGlb(mesh, false)).root;
   EXPECT_FALSE(root.contains("textures"));
@@ -235,7 +181,7 @@ TEST(MaterialSource, OpacityOfVerticesMattersForTheirMaterialOnly) {
 }
 
 TEST(MaterialSource, MeshesThatAreJoinedKeepTheirPicturesApart) {
-  const TriangleMesh first = parse(".glb", squareGlb(kRich, kPlain));
+  const TriangleMesh first = parse(".glb", squareGlb(kRichMaterial, kPlain));
   TriangleMesh second = first;
   std::swap(second.textures[0], second.textures[1]);
   for (Material& m : second.materials) {
@@ -249,7 +195,7 @@ TEST(MaterialSource, MeshesThatAreJoinedKeepTheirPicturesApart) {
   second.textures[0].bytes += "x";
   append(joined, second);
   EXPECT_EQ(joined.materials.size(), 3u) << "only the one with a picture differs";
-  const Parts before(squareGlb(kRich, kPlain)), after(formatGlb(joined, false));
+  const Parts before(squareGlb(kRichMaterial, kPlain)), after(formatGlb(joined, false));
   EXPECT_EQ(after.material(0), before.material(1));
 }
 
@@ -318,7 +264,7 @@ TEST(MaterialSource, WhatALineCannotBreakIsKept) {
 }
 
 TEST(MaterialSource, AcrossFormatsWhatCanBeIsCarriedAndTheRestIsSaid) {
-  const TriangleMesh fromGlb = parse(".glb", squareGlb(kRich, kPlain));
+  const TriangleMesh fromGlb = parse(".glb", squareGlb(kRichMaterial, kPlain));
   const ObjFiles files = formatObj(fromGlb, "out", false);
   const std::string library = files.siblings.back().bytes;
   EXPECT_THAT(library, HasSubstr("norm out_grau.jpg\n"));
@@ -349,7 +295,7 @@ TEST(MaterialSource, AcrossFormatsWhatCanBeIsCarriedAndTheRestIsSaid) {
 
 TEST(MaterialSource, WritingSaysWhatIsLeftOutInOneLine) {
   const TestFolder folder("lost");
-  const TriangleMesh mesh = parse(".glb", squareGlb(kRich, kPlain));
+  const TriangleMesh mesh = parse(".glb", squareGlb(kRichMaterial, kPlain));
   for (const char* ending : {".obj", ".ply", ".stl", ".off"}) {
     Warnings warnings;
     writeMesh(folder / (std::string("m") + ending), mesh, {.warnings = &warnings});
@@ -384,7 +330,7 @@ TEST(MaterialSource, AHundredThousandMaterialsWithOddNamesAreReadAndWritten) {
     EXPECT_EQ(back.materials[1].name, "Größe") << ending;
     EXPECT_EQ(back.materials[2].name, "名前") << ending;
   }
-  // Pictures that are not there are told in one line.
+  // Pictures that are not there are said in one line.
   std::string obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n", mtl;
   for (std::uint32_t m = 0; m < kCount; ++m) {
     const std::string name = "m " + std::to_string(m);

@@ -177,4 +177,58 @@ std::string richGlb() {
       binary);
 }
 
+const std::string kRichMaterial =
+    R"("name":"reich","doubleSided":true,"alphaMode":"MASK","alphaCutoff":0.25,"extras":{"id":7},
+"normalTexture":{"index":1,"scale":0.5},"occlusionTexture":{"index":2,"strength":0.75},
+"emissiveTexture":{"index":3},"emissiveFactor":[1,0.5,0.25],
+"pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.7,
+"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"offset":[0.5,0],"rotation":0.3,"scale":[2,3]}}},
+"metallicRoughnessTexture":{"index":2}},
+"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":3.5},
+"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatNormalTexture":{"index":1}},
+"VENDOR_materials_moss":{"mossTexture":{"index":0},"density":0.125,"list":[1,"a",null]}})";
+
+std::string squareGlb(const std::string& first, const std::string& second, const std::string& more,
+                      const std::string& attributes) {
+  std::string binary;
+  const auto floats = [&](std::initializer_list<float> values) {
+    for (const float f : values) binary.append(reinterpret_cast<const char*>(&f), 4);
+  };
+  floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+  floats({0, 0, 1, 0, 1, 1, 0, 1});
+  for (const std::uint16_t i : {0, 1, 2, 0, 2, 3})
+    binary.append(reinterpret_cast<const char*>(&i), 2);
+  const std::size_t png = binary.size();
+  binary += tinyPng();
+  const std::size_t jpeg = binary.size();
+  binary += tinyJpeg();
+  const auto view = [](std::size_t begin, std::size_t size) {
+    return R"({"buffer":0,"byteOffset":)" + std::to_string(begin) + R"(,"byteLength":)" +
+           std::to_string(size) + "}";
+  };
+  const std::string attribute =
+      R"({"attributes":{"POSITION":0,"TEXCOORD_0":1)" + attributes + R"(},"indices":)";
+  return makeGlb(
+      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0,"name":"Wand mit Übergröße"}],
+"meshes":[{"name":"Wand.001","primitives":[)" +
+          attribute + R"(2,"material":1},)" + attribute + R"(3,"material":2}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"},
+{"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"},
+{"bufferView":3,"componentType":5123,"count":3,"type":"SCALAR"}],
+"bufferViews":[)" +
+          view(0, 48) + "," + view(48, 32) + "," + view(80, 6) + "," + view(86, 6) + "," +
+          view(png, tinyPng().size()) + "," + view(jpeg, tinyJpeg().size()) + R"(],
+"buffers":[{"byteLength":)" +
+          std::to_string(binary.size()) + R"(}],
+"images":[{"bufferView":4,"mimeType":"image/png","name":"rot.png"},
+{"bufferView":5,"mimeType":"image/jpeg","name":"grau.jpg"}],
+"samplers":[{"wrapS":33071,"magFilter":9728},{}],
+"textures":[{"source":0,"sampler":0,"name":"t"},{"source":1,"sampler":1},{"source":1},{"source":0,"extras":{"a":[1,2]}}],
+"materials":[{"name":"unused"},{)" +
+          first + "},{" + second + "}]" + more + "}",
+      binary);
+}
+
 }  // namespace exemplar

@@ -63,4 +63,12 @@ std::string makeGlb(std::string json, std::string binary);
 /// strips, a texture transform, data in a URI.
 std::string richGlb();
 
+/// A `.glb` of a square of two triangles with two materials, whose JSON members are given, and the
+/// pictures, samplers and textures that they may name; more members at the top, and further
+/// attributes, with a comma in front.
+std::string squareGlb(const std::string& first, const std::string& second,
+                      const std::string& more = "", const std::string& attributes = "");
+/// The members of a material with all maps, a transform and extensions, known and unknown.
+extern const std::string kRichMaterial;
+
 }  // namespace exemplar
