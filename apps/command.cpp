@@ -113,6 +113,7 @@ ReadOptions readingOf(const Settings& settings, Form form) {
   ReadOptions options;
   options.form = form;
   readingSettings(form).apply(settings, options);
+  checkReading(options);
   return options;
 }
 

@@ -62,7 +62,8 @@ void compareEngines(const Options& options, Terminal& terminal) {
   comparison.seeds = options.seeds;
   comparison.scale = requestOf(options.settings).extent.scale;
   comparison.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path); };
-  const ReadOptions reading = readingOf(options.settings, Form::Field);
+  ReadOptions reading = readingOf(options.settings, Form::Field);
+  reading.wanted = Extent{.scale = comparison.scale, .size = {}};
   comparison.mesh = reading.mesh;
   const Example example = readExample(options.example, reading, terminal.progress().part(0, 0.1));
   terminal.say("example", options.example + ": " + example.description);

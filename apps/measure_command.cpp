@@ -17,6 +17,7 @@
 #include "engine/page.h"
 #include "engine/realize.h"
 #include "engine/request.h"
+#include "sdf/vdb_file.h"
 
 namespace exemplar {
 namespace {
@@ -36,6 +37,7 @@ void writeReport(const Options& options, const Example& example, const Measured&
   ResultPage page{options.report, options.example, example.description, whole, mesh};
   page.exampleField = &example.field();
   page.field = &measured.field;
+  page.turn = example.turn;
   if (measured.origins.count() > 0) page.origins = &measured.origins;
   writePage(page, {{"figures", toJson(all)}}, picture, progress.part(0.4, 1));
 }
@@ -46,8 +48,12 @@ void measureFiles(const Options& options, Terminal& terminal) {
   RenderOptions picture = renderOptions(options.picture);
   const Request request = requestOf(options.settings);
   const Progress& progress = terminal.progress();
-  const Example example =
-      readExample(options.example, readingOf(options.settings, Form::Field), progress.part(0, 0.2));
+  ReadOptions reading = readingOf(options.settings, Form::Field);
+  // Read as it was for the synthesis.
+  std::optional<Vec3d> scale = request.extent.scale;
+  if (!scale && !options.origins.empty()) scale = readOriginsScale(options.origins);
+  if (scale) reading.wanted = Extent{.scale = scale, .size = {}};
+  const Example example = readExample(options.example, reading, progress.part(0, 0.2));
   for (const std::string& warning : example.warnings) terminal.warn(warning);
   std::optional<Source> origins;
   if (!options.origins.empty()) origins = Source(options.origins);

@@ -13,6 +13,7 @@
 #include "engine/words.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
+#include "sdf/vdb_file.h"
 #include "voxelize/label_mesh.h"
 
 namespace exemplar {
@@ -29,7 +30,10 @@ TriangleMesh dressed(const Options& options, const ReadOptions& reading, int det
                      const Progress& progress) {
   std::vector<Source> sources{options.example};
   sources.insert(sources.end(), options.with.begin(), options.with.end());
-  std::vector<Example> examples = readExamples(sources, reading, progress.part(0, 0.3));
+  ReadOptions asMade = reading;
+  if (const auto scale = readOriginsScale(options.origins))
+    asMade.wanted = Extent{.scale = scale, .size = {}};
+  std::vector<Example> examples = readExamples(sources, asMade, progress.part(0, 0.3));
   Result result = readResult(options.source, options.origins, examples);
   if (detail > 1) {
     examples = refined(examples, detail, progress.part(0.3, 0.5));

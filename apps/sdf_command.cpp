@@ -31,7 +31,7 @@ Command addSdfCommand(CLI::App& app) {
                             terminal.progress().part(0, 0.9));
             for (const std::string& warning : example.warnings) terminal.warn(warning);
             terminal.progress().report("writing " + options->output, 0.9);
-            writeVdb(options->output, example.field(), example.continues);
+            writeVdb(options->output, example.field(), example.continues, example.turn);
             terminal.say("example", example.description);
             terminal.wrote(
                 "field", options->output,

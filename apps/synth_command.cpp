@@ -121,6 +121,7 @@ Plan planOf(const Options& options) {
   for (const auto& table : {readingSettings(form).settings(), surfaceSettings(form).settings()})
     for (const Setting& setting : table) settings.remove(setting.key);
   plan.request = requestOf(settings, plan.reading);
+  if (form == Form::Field) plan.reading.wanted = plan.request.extent;
   return plan;
 }
 
@@ -190,12 +191,24 @@ void writeReport(const Options& options, const Plan& plan, std::span<const Examp
   const std::optional<SampledResult> samples = sampled(result, example);
   const auto* labeled = std::get_if<LabeledField>(&example.content);
   ResultPage page{options.report, example.source.path(), example.description, whole, surface.mesh};
+  page.turn = example.turn;
   if (samples) {
     page.exampleField = labeled ? &labeled->field : &example.field();
     page.field = &samples->field;
     page.origins = &samples->origins;
   }
   writePage(page, std::move(run), plan.picture, progress.part(0.5, 1));
+}
+
+/// How large the result was asked to be, in sizes of the example.
+Vec3d scaleOf(const Plan& plan, const Result& result, std::span<const Example> examples) {
+  const Extent& extent = plan.request.extent;
+  if (!extent.size) return extent.scale.value_or(examples.front().hints.scale);
+  Vec3d scale = cast<double>(*extent.size);
+  const Vec3i was = examples.front().field().size();
+  const int factor = std::max(1, result.field().size().x / extent.size->x);
+  for (int axis = 0; axis < 3; ++axis) scale[axis] *= static_cast<double>(factor) / was[axis];
+  return scale;
 }
 
 void writeStats(const Options& options, const Result& result, const std::optional<Surface>& surface,
@@ -233,7 +246,8 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
   }
   for (const std::string& warning : written.warnings) terminal.warn(warning);
   if (!options.origins.empty()) {
-    writeOriginsVdb(options.origins, result.origins, result.field());
+    writeOriginsVdb(options.origins, result.origins, result.field(),
+                    {.turn = examples.front().turn, .scale = scaleOf(plan, result, examples)});
     terminal.wrote("origins", options.origins, options.origins);
   }
   if (!options.preview.empty()) {

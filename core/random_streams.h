@@ -25,6 +25,8 @@ enum Name : std::uint32_t {
   kLabelChoice = 0x4C424C31,  ///< which label a cell takes
   kBlockAccept = 0x4C424C32,  ///< whether a modified block is kept
   kLimits = 0x4C424C33,       ///< where a limit on counts or connectedness is worked on
+  // sdf
+  kDetailPlaces = 0xde7a,  ///< where a surface is looked at for its detail
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,

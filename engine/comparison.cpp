@@ -19,6 +19,7 @@
 #include "engine/realize.h"
 #include "engine/words.h"
 #include "measure/mesh_result.h"
+#include "mesh/footprint.h"
 #include "mesh/image.h"
 #include "sdf/vdb_file.h"
 #include "voxelize/violations.h"
@@ -35,8 +36,8 @@ constexpr int kParts = 3;
 struct Run {
   std::string status, why;
   DistanceField field;
-  Origins origins;  ///< none of pieces
-  TriangleMesh mesh;
+  Origins origins;                         ///< none of pieces
+  TriangleMesh mesh;                       ///< straight, as the field is
   double seconds = 0;                      ///< of synthesis alone
   std::optional<std::uint64_t> peakBytes;  ///< resident while it ran, surface included
   std::optional<std::int64_t> labels;      ///< kinds of blocks or pieces
@@ -161,6 +162,7 @@ Run runEngine(const ComparedEngine& compared, const Example& example, const Vec3
       whole.data = run.field;
       whole.origins = run.origins;
       run.mesh = realize(whole, {&example, 1}, {}, progress.part(0.6, 0.9)).mesh;
+      turn(run.mesh, example.turn.back());
     } catch (const InputError& error) {
       // All solid or all air.
       run.status = "empty";
@@ -249,6 +251,7 @@ Json makeRun(const Example& example, const ComparisonOptions& options,
              const ComparedEngine& compared, const Vec3d& scale, std::uint64_t seed,
              const Progress& progress) {
   const std::string name = runName(compared.name, seed);
+  const RenderOptions picture = straightPicture(options.picture, example.turn);
   Run made = runEngine(compared, example, scale, seed, progress.part(0, 0.5));
   Json run{{"engine", compared.name}, {"seed", seed}, {"status", made.status}};
   if (made.labels) run["labels"] = *made.labels;
@@ -273,20 +276,24 @@ Json makeRun(const Example& example, const ComparisonOptions& options,
   run["figures"] =
       toJson(figures(measure(example.field(), made.field, input, {}, progress.part(0.5, 0.7))));
   progress.report("drawing " + name, 0.7);
-  const Image8 image = render(made.mesh, options.picture, progress.part(0.7, 0.8));
+  const Image8 image = render(made.mesh, picture, progress.part(0.7, 0.8));
   progress.report("marking " + name, 0.8);
-  const PageParts parts = pageParts(made.mesh, &example.field(), &made.field, origins,
-                                    options.picture, kManyViews, progress.part(0.8, 1));
+  const PageParts parts = pageParts(made.mesh, &example.field(), &made.field, origins, picture,
+                                    kManyViews, progress.part(0.8, 1));
   run["marks"] = toJson(parts.marks);
   run["mesh"] = name + ".glb";
   run["picture"] = name + ".png";
   run["field"] = name + ".vdb";
   if (origins) run["origins"] = name + "-origins.vdb";
   const fs::path& folder = options.folder;
+  turn(made.mesh, example.turn);
   writeMesh(folder / (name + ".glb"), made.mesh, options.mesh);
   writePng(folder / (name + ".png"), image);
-  writeVdb(folder / (name + ".vdb"), made.field);
-  if (origins) writeOriginsVdb(folder / (name + "-origins.vdb"), made.origins, made.field);
+  writeVdb(folder / (name + ".vdb"), made.field, {}, example.turn);
+  if (origins) {
+    writeOriginsVdb(folder / (name + "-origins.vdb"), made.origins, made.field,
+                    {.turn = example.turn, .scale = scale});
+  }
   if (!parts.view.empty()) {
     run["view"] = name + "-view.json";
     writeFile(folder / (name + "-view.json"), parts.view);
@@ -425,14 +432,16 @@ void compare(const Example& example, const ComparisonOptions& options,
   const Vec3d scale = options.scale.value_or(example.hints.scale);
   scaledSize(example.field().size(), scale, "samples");
   progress.report("drawing the example", 0);
-  const TriangleMesh mesh = pictured(example.source, example.reading, progress.part(0, 0.02));
+  TriangleMesh mesh = pictured(example.source, example.reading, progress.part(0, 0.02));
+  turn(mesh, example.turn.back());
+  const RenderOptions picture = straightPicture(options.picture, example.turn);
   const auto wrote = [&](const fs::path& path) {
     if (options.wrote) options.wrote(path);
   };
-  writePng(folder / "example.png", render(mesh, options.picture, progress.part(0.02, 0.04)));
+  writePng(folder / "example.png", render(mesh, picture, progress.part(0.02, 0.04)));
   wrote(folder / "example.png");
   const std::string view =
-      exampleView(mesh, &example.field(), options.picture, kManyViews, progress.part(0.04, 0.06));
+      exampleView(mesh, &example.field(), picture, kManyViews, progress.part(0.04, 0.06));
 
   Json comparison = comparisonHead(example, scale);
   const std::uint64_t hash = hashOf(example);
@@ -460,7 +469,7 @@ void compare(const Example& example, const ComparisonOptions& options,
   }
   progress.report("writing the report", 0.96);
   writeFile(folder / "compare.json", comparison.dump(2) + "\n");
-  writeFile(folder / "report.html", comparisonPage(comparison, folder, view, options.picture));
+  writeFile(folder / "report.html", comparisonPage(comparison, folder, view, picture));
 }
 
 }  // namespace exemplar

@@ -24,6 +24,40 @@ SettingTable<ReadOptions>::Row meshUpRow() {
       {{"auto", UpAxis::Default}, {"y", UpAxis::Y}, {"z", UpAxis::Z}});
 }
 
+/// Samples along the longest side, or "auto".
+SettingTable<ReadOptions>::Row resolutionRow() {
+  Setting setting{.key = "resolution",
+                  .type = SettingType::IntegerOrAuto,
+                  .meaning =
+                      "samples along the example's longest side; finer detail is lost; auto: "
+                      "as many as a mesh's detail needs",
+                  .unit = "samples",
+                  .least = 4,
+                  .most = 4096,
+                  .byDefault = "64; a volume keeps its own"};
+  return {std::move(setting), [](const Setting& s, const std::string& text, ReadOptions& o) {
+            o.holdDetail = text == "auto";
+            o.resolution.reset();
+            if (!o.holdDetail) o.resolution = static_cast<int>(readInteger(s, text));
+          }};
+}
+
+/// Voxels of air: one number, or three.
+SettingTable<ReadOptions>::Row paddingRow() {
+  Setting setting{.key = "padding",
+                  .type = SettingType::Size,
+                  .meaning =
+                      "air around a mesh, on both sides of each axis: one number for all, or "
+                      "three",
+                  .unit = "voxels",
+                  .least = kAir.least,
+                  .most = kAir.most,
+                  .byDefault = "4; 0 at the ends of a mesh that goes on, and of windows"};
+  return {std::move(setting), [](const Setting& s, const std::string& text, ReadOptions& o) {
+            o.padding = Padding(readSize(s, text));
+          }};
+}
+
 /// Warns of what was asked for and has no meaning for this kind of example.
 void warnOfUnused(Example& example) {
   const ReadOptions& o = example.reading;
@@ -39,7 +73,13 @@ void warnOfUnused(Example& example) {
     if (given && !used) unused.push_back("`" + std::string(key) + "`");
   };
   use("resolution", o.resolution.has_value(), sampled);
+  if (o.holdDetail && !mesh && sampled) {
+    example.warnings.push_back(example.name() +
+                               ": `resolution` auto is for meshes; this example is read as usual");
+  }
   use("padding", o.padding.has_value(), !labels && (mesh || scene));
+  use("scatter", o.scatter, !labels && mesh);
+  use("align", o.align != usual.align, !labels && mesh);
   use("scene-seed", o.sceneSeed.has_value(), scene);
   use("cell-size", o.cellSize.has_value(), heights);
   use("height-scale", o.heightScale.has_value(), heights);
@@ -92,11 +132,16 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
                          "a level set, else \"density\", else the first");
   };
   static const SettingTable<O> field{
-      settingRow<O>("resolution", &O::resolution,
-                    "samples along the example's longest side; finer detail is lost", {4, 4096},
-                    "samples", "64; a volume keeps its own"),
-      settingRow<O>("padding", &O::padding, "air around a mesh", kAir, "voxels",
-                    "4; 0 where the example goes on past its box"),
+      resolutionRow(),
+      paddingRow(),
+      settingRow<O>("scatter", &O::scatter,
+                    "a mesh is an object that stands alone, with air on all sides, also where it "
+                    "looks like a piece of something longer, as a wall does"),
+      choiceRow<O, Align>(
+          "align", [](O& o) -> Align& { return o.align; },
+          "what is done about a mesh that lies turned about the vertical against its box: turn it "
+          "straight, and the result back, or nothing",
+          {{"auto", Align::Auto}, {"none", Align::None}}),
       sceneSeed(),
       cellSize(),
       heightScale(),
@@ -144,6 +189,11 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
   return form == Form::Field ? field : labels;
 }
 
+void checkReading(const ReadOptions& options) {
+  if (options.scatter && options.padding)
+    throw InputError("`scatter` and `padding` both say where there is air; give one of the two");
+}
+
 Example readExample(const Source& source, const ReadOptions& options, const Progress& progress) {
   progress.report("reading " + source.name(), 0);
   Example example;
@@ -155,6 +205,7 @@ Example readExample(const Source& source, const ReadOptions& options, const Prog
                         example.kind == SourceKind::Picture;
     example.reading.form = labels ? Form::Labels : Form::Field;
   }
+  checkReading(example.reading);
   if (example.reading.form == Form::Field) {
     readAsField(example, progress);
   } else {

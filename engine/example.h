@@ -12,6 +12,7 @@
 
 #include "core/axes.h"
 #include "core/progress.h"
+#include "core/turn.h"
 #include "core/warnings.h"
 #include "engine/setting.h"
 #include "engine/source.h"
@@ -19,6 +20,7 @@
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
 #include "sdf/height_map.h"
+#include "sdf/mesh_to_sdf.h"
 #include "voxelize/field_blocks.h"
 #include "voxelize/label_grid.h"
 #include "voxelize/label_image.h"
@@ -52,6 +54,18 @@ struct Hints {
   int block = 16;        ///< samples a side of the blocks of `blocks` at the finest level
 };
 
+/// How large a result is; where neither is given, the example's hint says it.
+struct Extent {
+  std::optional<Vec3d> scale;  ///< in sizes of the example, each > 0
+  std::optional<Vec3i> size;   ///< in samples (Field) or cells (Labels), each 1..32767
+};
+
+/// What is done about a mesh that lies turned about the vertical against its box.
+enum class Align {
+  Auto,  ///< it is sampled straight, and what is made of it is turned back
+  None,  ///< it is sampled as it lies
+};
+
 /// How far from the surface an example's distances are exact, in voxels. Matching truncates
 /// further.
 inline constexpr double kExampleHalfWidth = 16;
@@ -61,7 +75,18 @@ struct ReadOptions {
   std::optional<Form> form;  ///< Labels for grids of labels and scenes of pieces, else Field
   /// Samples (Field) or cells (Labels) along the longest side, 4..4096 and 1..4096.
   std::optional<int> resolution;
-  std::optional<int> padding;              ///< Field: voxels of air around a mesh, 0..1024
+  bool holdDetail = false;  ///< Field, in place of `resolution`: as many as a mesh's detail needs
+
+  // Field, of a mesh:
+  /// How large a result is wanted: it is read for that. Along axes that become longer, a mesh that
+  /// goes on past its box (`looksCut`), as a wall does, is a piece of something longer and has no
+  /// air at its ends, and one that lies turned is straightened. Where this has no value, it is an
+  /// object with air around it, as it lies.
+  std::optional<Extent> wanted;
+  std::optional<Padding> padding;  ///< voxels of air around it, each 0..1024, in place of a choice
+  bool scatter = false;            ///< an object that stands alone: with air on all sides
+  Align align = Align::Auto;
+
   std::optional<std::uint64_t> sceneSeed;  ///< another sample of a scene's random process
   MeshFileOptions mesh;
   std::optional<double> cellSize;     ///< world distance of a height map's points, > 0
@@ -81,6 +106,9 @@ struct ReadOptions {
 /// The settings that fill `ReadOptions`, for examples of a form.
 const SettingTable<ReadOptions>& readingSettings(Form form);
 
+/// Throws `InputError` where options exclude each other. `readExample` checks it, too.
+void checkReading(const ReadOptions& options);
+
 /// An example, read and sampled.
 struct Example {
   Source source;
@@ -92,7 +120,12 @@ struct Example {
   LabelContent content;              ///< of labels
   std::optional<TriangleMesh> mesh;  ///< where materials, colors and finer detail come from
   Hints hints;
-  Axes continues;  ///< along which it goes on past its box: a volume that tiles
+  Axes continues;  ///< along which copies of it tile: a volume that says so
+  // Of a mesh as distances:
+  Axes goesOn;      ///< along which its box cuts it out of something longer
+  Padding padding;  ///< voxels of air around it
+  /// From where `data` and `mesh` are, straight, to where it lies in its file.
+  Turn turn;
   std::optional<HeightSteps> heightSteps;  ///< of a height map, to write one alike
   Warnings warnings;  ///< what the file holds that was left out or taken otherwise
 

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "engine/example_forms.h"
+#include "engine/mesh_field.h"
 #include "engine/words.h"
 #include "mesh/scene.h"
 #include "sdf/mesh_to_sdf.h"
@@ -19,10 +20,6 @@ namespace exemplar {
 namespace {
 
 constexpr int kDefaultResolution = 64;
-constexpr int kDefaultPadding = 4;
-/// A mesh thinner than this part of its length, seen from above, is a panel: it is not doubled
-/// across its thickness.
-constexpr double kPanelThinness = 1.0 / 3;
 
 std::string triangleCount(const TriangleMesh& mesh) {
   return withThousands(static_cast<long long>(mesh.triangles.size())) + " triangles";
@@ -55,25 +52,11 @@ void sampleScene(Example& example, const Progress& progress) {
   example.mesh = std::move(scene.mesh);
 }
 
-void sampleMesh(Example& example, const Progress& progress) {
-  const ReadOptions& options = example.reading;
-  MeshFileOptions file = options.mesh;
+void readMeshField(Example& example, const Progress& progress) {
+  MeshFileOptions file = example.reading.mesh;
   file.warnings = &example.warnings;
-  TriangleMesh mesh = readTriangles(example.source, file, progress.part(0, 0.2));
-  const int resolution = options.resolution.value_or(kDefaultResolution);
-  const int padding = options.padding.value_or(kDefaultPadding);
-  const Vec3d size = boundingBox(mesh).size();
-  // The margin is part of the resolution, which is the field's longest side.
-  const int inner = std::max(1, resolution - 2 * padding);
-  example.data = meshToSdf(mesh,
-                           {.voxelSize = std::max({size.x, size.y, size.z}) / inner,
-                            .padding = padding,
-                            .halfWidth = kExampleHalfWidth},
-                           progress.part(0.2, 1));
-  if (size.x < kPanelThinness * size.y) example.hints.scale.x = 1;
-  if (size.y < kPanelThinness * size.x) example.hints.scale.y = 1;
-  example.description = "mesh of " + triangleCount(mesh);
-  example.mesh = std::move(mesh);
+  sampleMesh(readTriangles(example.source, file, progress.part(0, 0.2)), example,
+             progress.part(0.2, 1));
 }
 
 void sampleHeights(Example& example, const Progress& progress) {
@@ -93,9 +76,10 @@ void sampleHeights(Example& example, const Progress& progress) {
 }
 
 void takeVolume(Example& example, const Progress& progress) {
-  example.data = readDistances(example.source,
-                               {.grid = example.reading.grid, .warnings = &example.warnings},
-                               &example.continues, progress);
+  example.data = readDistances(
+      example.source,
+      {.grid = example.reading.grid, .warnings = &example.warnings, .turn = &example.turn},
+      &example.continues, progress);
   example.hints.scale = {2, 2, 2};
   example.description = "volume";
   if (example.continues.any())
@@ -107,7 +91,7 @@ void takeVolume(Example& example, const Progress& progress) {
 void readAsField(Example& example, const Progress& progress) {
   switch (example.kind) {
     case SourceKind::Mesh:
-      sampleMesh(example, progress);
+      readMeshField(example, progress);
       break;
     case SourceKind::HeightMap:
       sampleHeights(example, progress);
@@ -134,13 +118,10 @@ void sampleAlike(Example& example, const Example& first, const Progress& progres
   if (example.mesh) {
     const bool window = example.kind != SourceKind::Mesh;
     const Box3d box = window ? example.field().box() : boundingBox(*example.mesh);
-    const int usual = window || first.kind != SourceKind::Mesh ? 0 : kDefaultPadding;
-    example.data = meshToSdf(*example.mesh,
-                             {.voxelSize = voxel,
-                              .box = box,
-                              .padding = example.reading.padding.value_or(usual),
-                              .halfWidth = kExampleHalfWidth},
-                             progress);
+    Padding padding = window ? example.reading.padding.value_or(0) : example.padding;
+    // Beside a window into something larger, it is one, too.
+    if (!window && first.kind != SourceKind::Mesh && !example.reading.padding) padding = 0;
+    example.data = sampledMesh(example, voxel, box, padding, progress);
   } else if (std::abs(example.field().voxelSize / voxel - 1) > 1e-3) {
     throw InputError(example.name() + " has voxels of " + numberText(example.field().voxelSize) +
                      ", not of " + numberText(voxel) + " as " + first.name() +
@@ -155,11 +136,7 @@ std::vector<Example> refined(std::span<const Example> examples, int factor,
     const DistanceField& coarse = example.field();
     DistanceField fine;
     if (example.mesh) {
-      fine = meshToSdf(*example.mesh,
-                       {.voxelSize = coarse.voxelSize / factor,
-                        .box = coarse.box(),
-                        .halfWidth = kExampleHalfWidth},
-                       progress);
+      fine = sampledMesh(example, coarse.voxelSize / factor, coarse.box(), 0, progress);
     } else if (example.kind == SourceKind::HeightMap) {
       ReadOptions options = example.reading;
       const Vec3i n = coarse.size();

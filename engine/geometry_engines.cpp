@@ -39,32 +39,40 @@ Vec3i fieldSize(std::span<const Example> examples, const Request& request) {
   return size;
 }
 
-/// A solid to ask for what is inside: a mesh's, or a volume's.
-DistanceField readRegion(const Source& source, double voxelSize, const ReadOptions& reading,
-                         const Progress& progress) {
+/// A solid to ask for what is inside: a mesh's, or a volume's, and from there to where it lies.
+struct Region {
+  DistanceField field;
+  Turn turn;
+};
+Region readRegion(const Source& source, double voxelSize, const ReadOptions& reading,
+                  const Progress& progress) {
+  Region region;
   switch (sourceKind(source)) {
     case SourceKind::Mesh:
-      return meshToSdf(readTriangles(source, reading.mesh),
-                       {.voxelSize = voxelSize, .padding = kRegionPadding}, progress);
+      region.field = meshToSdf(readTriangles(source, reading.mesh),
+                               {.voxelSize = voxelSize, .padding = kRegionPadding}, progress);
+      return region;
     case SourceKind::Volume:
-      return readDistances(source);
+      region.field = readDistances(source, {.turn = &region.turn});
+      return region;
     default:
       throw InputError("`keep`: " + source.name() + " is neither a mesh nor a .vdb");
   }
 }
 
 /// Which samples of a result are inside the solid that is kept.
-Array3D<std::uint8_t> keptSamples(const Source& source, const DistanceField& example,
-                                  const Vec3i& size, const ReadOptions& reading,
-                                  const Progress& progress) {
-  const DistanceField region = readRegion(source, example.voxelSize, reading, progress);
-  const Box3d box = region.box();
+Array3D<std::uint8_t> keptSamples(const Source& source, const Example& in, const Vec3i& size,
+                                  const ReadOptions& reading, const Progress& progress) {
+  const DistanceField& example = in.field();
+  const Region region = readRegion(source, example.voxelSize, reading, progress);
+  const Box3d box = region.field.box();
+  const Turn back = region.turn.back();
   Array3D<std::uint8_t> kept(size);
   bool any = false;
   forEachCell(min(size, example.size()), [&](const Vec3i& p) {
-    const Vec3d xyz = example.position(cast<double>(p));
+    const Vec3d xyz = back(in.turn(example.position(cast<double>(p))));
     if (!box.contains(xyz)) return;
-    kept[p] = sampleTrilinear(region, xyz) < 0;
+    kept[p] = sampleTrilinear(region.field, xyz) < 0;
     any = any || kept[p];
   });
   if (!any) {
@@ -79,6 +87,8 @@ Array3D<float> guideDistances(const Source& source, const Vec3i& size, const Rea
                               const Progress& progress) {
   ReadOptions options = reading;
   options.form = Form::Field;
+  options.holdDetail = options.scatter = false;
+  options.wanted.reset();
   options.padding = 0;
   const Example guideExample = readExample(source, options, progress);
   const DistanceField& field = guideExample.field();
@@ -132,6 +142,16 @@ Result resultOf(SynthesisResult made, const std::string& method,
   result.data = std::move(made.field);
   result.origins = std::move(made.origins);
   return result;
+}
+
+/// Axes that were found: parts of what goes on along some move along the others only where the
+/// result is longer there, too; a wall stays as high as it is.
+Axes withoutSideways(Axes found, const Example& example, const Vec3i& size) {
+  if (!example.goesOn.any()) return found;
+  for (int axis = 0; axis < 3; ++axis)
+    found[axis] =
+        found[axis] && (example.goesOn[axis] || size[axis] > example.field().size()[axis]);
+  return found;
 }
 
 /// Notes along which axes parts were moved, and whether that was found.
@@ -224,7 +244,9 @@ class QuiltingEngine final : public FieldEngine {
     QuiltingOptions options = optionsOf(examples, request);
     const DistanceField& example = examples.front().field();
     const bool found = !options.stationary;
-    if (found) options.stationary = findStationaryAxes(example);
+    if (found)
+      options.stationary =
+          withoutSideways(findStationaryAxes(example), examples.front(), options.size);
     Result result =
         resultOf(synthesizeByQuilting(example, options, progress), "quilting", examples);
     noteStationary(*options.stationary, found, result);
@@ -256,10 +278,9 @@ class VotingEngine final : public FieldEngine {
     options.size = fieldSize(examples, request);
     options.seed = request.seed;
     options.periodic = request.periodic;
-    const DistanceField& example = examples.front().field();
     if (request.decided.keep) {
-      options.kept = keptSamples(*request.decided.keep, example, options.size, request.reading,
-                                 progress.part(0, 0.05));
+      options.kept = keptSamples(*request.decided.keep, examples.front(), options.size,
+                                 request.reading, progress.part(0, 0.05));
     }
     if (request.guide) {
       options.guide =
@@ -267,7 +288,10 @@ class VotingEngine final : public FieldEngine {
     }
     const std::vector<const DistanceField*> fields = fieldsOf(examples);
     const bool found = !options.stationary;
-    if (found) options.stationary = stationaryAxes(fields, options.kept ? &*options.kept : nullptr);
+    if (found)
+      options.stationary =
+          withoutSideways(stationaryAxes(fields, options.kept ? &*options.kept : nullptr),
+                          examples.front(), options.size);
     Result result =
         resultOf(synthesizeByVoting(fields, options, progress.part(0.1, 1)), "voting", examples);
     noteStationary(*options.stationary, found, result);

@@ -9,6 +9,7 @@
 #include "engine/realize.h"
 #include "engine/request.h"
 #include "measure/mesh_result.h"
+#include "mesh/footprint.h"
 #include "sdf/vdb_file.h"
 
 namespace exemplar {
@@ -38,6 +39,8 @@ Measured readMeasured(const Source& result, const std::optional<Source>& origins
       throw InputError("`scale`: " + result.name() + " has a size of its own; only a mesh has not");
     ReadOptions options = example.reading;
     options.form = Form::Field;
+    options.holdDetail = options.scatter = false;
+    options.wanted.reset();
     options.padding = 0;
     measured.field = readExample(result, options, progress).field();
     return measured;
@@ -50,6 +53,7 @@ Measured readMeasured(const Source& result, const std::optional<Source>& origins
     size = scaledSize(example.field().size(), *scale, "samples");
   }
   measured.mesh = readTriangles(result, example.reading.mesh);
+  turn(*measured.mesh, example.turn.back());
   try {
     measured.field = sampleMeshResult(*measured.mesh, example.field(), {.size = size}, progress);
   } catch (const InputError& error) {
@@ -59,10 +63,15 @@ Measured readMeasured(const Source& result, const std::optional<Source>& origins
 }
 
 TriangleMesh surfaceOf(const Measured& measured, const Example& example, const Progress& progress) {
-  if (measured.mesh) return *measured.mesh;
+  if (measured.mesh) {
+    TriangleMesh mesh = *measured.mesh;
+    turn(mesh, example.turn);
+    return mesh;
+  }
   if (measured.origins.count() == 0) {
     Example alone;
     alone.data = measured.field;
+    alone.turn = example.turn;
     return contourOf(alone, progress);
   }
   Result result;

@@ -80,11 +80,15 @@ Written writeField(const fs::path& path, const Result& result, const Example& ex
     written.label = "heights";
     HeightMap map = sdfToHeightMap(result.field(), progress.part(0, 0.5));
     map.steps = example.heightSteps;
+    if (!example.turn.none())
+      written.warnings.push_back(
+          path.string() +
+          ": heights lie along x and y; the result is not turned back as the example lies");
     writeHeightMap(path, map,
                    {.heightScale = example.reading.heightScale, .warnings = &written.warnings},
                    progress.part(0.5, 1));
   } else {
-    writeVdb(path, result.field(), result.periodic, progress);
+    writeVdb(path, result.field(), result.periodic, example.turn, progress);
   }
   return written;
 }
@@ -169,7 +173,7 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
       labeled && endsWith(path, ".vdb")) {
     const PlacedBlocks placed =
         placeBlocks(labeled->field, labeled->blocks, grid.cells, progress.part(0, 0.5));
-    writeVdb(path, placed.field, {}, progress.part(0.5, 1));
+    writeVdb(path, placed.field, {}, example.turn, progress.part(0.5, 1));
     return {"written",
             path.string() + ": distances, " + readableSize(placed.field.size(), "samples"),
             {}};

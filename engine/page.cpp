@@ -9,9 +9,15 @@
 #include "core/memory.h"
 #include "engine/json.h"
 #include "measure/seams.h"
+#include "mesh/footprint.h"
 #include "preview/baked_light.h"
 
 namespace exemplar {
+
+RenderOptions straightPicture(RenderOptions picture, const Turn& turn) {
+  picture.view.azimuth -= turn.angle();
+  return picture;
+}
 
 Json pageHead(const std::string& kind, const std::filesystem::path& example,
               const std::string& description, const RenderOptions& picture) {
@@ -61,8 +67,25 @@ PageParts pageParts(const TriangleMesh& mesh, const DistanceField* example,
   return parts;
 }
 
-void writePage(const ResultPage& result, Json run, const RenderOptions& picture,
+void writePage(const ResultPage& given, Json run, const RenderOptions& asItLies,
                const Progress& progress) {
+  // All is shown straight, as the fields are, by a camera that stands elsewhere.
+  TriangleMesh straight[2];
+  if (!given.turn.none()) {
+    straight[0] = given.exampleMesh;
+    straight[1] = given.mesh;
+    for (TriangleMesh& mesh : straight) turn(mesh, given.turn.back());
+  }
+  const ResultPage result{given.page,
+                          given.example,
+                          given.description,
+                          given.turn.none() ? given.exampleMesh : straight[0],
+                          given.turn.none() ? given.mesh : straight[1],
+                          given.exampleField,
+                          given.field,
+                          given.origins,
+                          {}};
+  const RenderOptions picture = straightPicture(asItLies, given.turn);
   Json head = pageHead("result", result.example, result.description, picture);
   if (result.exampleField) {
     head["example"]["samples"] = toJson(result.exampleField->size());

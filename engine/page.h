@@ -12,6 +12,7 @@
 
 #include "core/origin.h"
 #include "core/progress.h"
+#include "core/turn.h"
 #include "mesh/triangle_mesh.h"
 #include "preview/render.h"
 #include "report/page.h"
@@ -23,6 +24,10 @@ namespace exemplar {
 /// What every page says first; `kind` is "comparison" or "result". Runs are added to `runs`.
 nlohmann::ordered_json pageHead(const std::string& kind, const std::filesystem::path& example,
                                 const std::string& description, const RenderOptions& picture);
+
+/// How pictures are taken of what was turned straight, so that it looks as it lies: `turn` takes it
+/// back.
+RenderOptions straightPicture(RenderOptions picture, const Turn& turn);
 
 /// A result as pages show it: the surface to turn, and marks where it has origins.
 struct PageParts {
@@ -52,11 +57,12 @@ struct ResultPage {
   std::filesystem::path example;  ///< the example's file
   std::string description;        ///< of the example, for people
   const TriangleMesh& exampleMesh;
-  const TriangleMesh& mesh;  ///< of the result
+  const TriangleMesh& mesh;  ///< of the result; both as they lie in files
   /// What figures and marks are taken from, where there is any.
   const DistanceField* exampleField = nullptr;
   const DistanceField* field = nullptr;
   const Origins* origins = nullptr;
+  Turn turn;  ///< from the fields to where the meshes lie
 };
 
 /// Writes a page of one result, whole or not at all. `run` is what is known of it ("engine",

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "engine/example_forms.h"
 #include "engine/words.h"
+#include "mesh/footprint.h"
 #include "reconstruct/copy_triangles.h"
 #include "reconstruct/field_to_mesh.h"
 #include "reconstruct/reconstruct.h"
@@ -98,8 +99,11 @@ Surface realize(const Result& result, std::span<const Example> examples,
     throw InputError("there is no result to make a surface of: " + result.why);
   requireSurface(options, examples);
   if (result.form() == Form::Field) {
-    return options.surface == SurfaceKind::Copy ? copied(result, examples, progress)
-                                                : contoured(result, examples, options, progress);
+    Surface surface = options.surface == SurfaceKind::Copy
+                          ? copied(result, examples, progress)
+                          : contoured(result, examples, options, progress);
+    turn(surface.mesh, examples.front().turn);
+    return surface;
   }
   Surface surface;
   surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));
@@ -123,7 +127,9 @@ TriangleMesh realizeLabels(const LabelGrid& grid, const Example& example,
 }
 
 TriangleMesh contourOf(const Example& example, const Progress& progress) {
-  return fieldToMesh(example.field(), {.wraps = example.continues}, progress);
+  TriangleMesh mesh = fieldToMesh(example.field(), {.wraps = example.continues}, progress);
+  turn(mesh, example.turn);
+  return mesh;
 }
 
 TriangleMesh pictured(const Example& example, const Progress& progress) {
@@ -136,13 +142,18 @@ TriangleMesh pictured(const Example& example, const Progress& progress) {
     return example.mesh ? *example.mesh
                         : boxesOf(example.labels(), false, example.name(), progress);
   }
-  if (example.mesh && example.kind == SourceKind::Mesh) return *example.mesh;
+  if (example.mesh && example.kind == SourceKind::Mesh) {
+    TriangleMesh mesh = *example.mesh;
+    turn(mesh, example.turn);
+    return mesh;
+  }
   const DistanceField& field = example.field();
   TriangleMesh mesh = fieldToMesh(field, {}, progress.part(0, 0.6));
   if (example.mesh) {
     transferAppearance(mesh, field, identityOrigins(field.size()), *example.mesh, field, {},
                        progress.part(0.6, 1));
   }
+  turn(mesh, example.turn);
   return mesh;
 }
 

@@ -43,7 +43,7 @@ struct Surface {
 /// A complete result as triangles with the examples' materials: of a field its contour, or the
 /// example's triangles copied; of labels the example's model pieces, or blocks of its field, or
 /// boxes. Does not apply `SurfaceOptions::detail` (`withDetail` does). Throws `InputError` where
-/// there is no surface, and `Cancelled`.
+/// there is no surface, and `Cancelled`. Surfaces lie as in the example's file (`Example::turn`).
 Surface realize(const Result& result, std::span<const Example> examples,
                 const SurfaceOptions& options = {}, const Progress& progress = {});
 

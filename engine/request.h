@@ -16,12 +16,6 @@
 /// What is wanted of an engine.
 namespace exemplar {
 
-/// How large a result is; where neither is given, the example's hint says it.
-struct Extent {
-  std::optional<Vec3d> scale;  ///< in sizes of the example, each > 0
-  std::optional<Vec3i> size;   ///< in samples (Field) or cells (Labels), each 1..32767
-};
-
 /// A cell that must have one of some labels.
 struct Pin {
   Vec3i cell;

@@ -37,7 +37,8 @@ Result withDetail(const Result& result, std::span<const Example> finer, int fact
 
 Result readResult(const Source& field, const Source& origins, std::span<const Example> examples) {
   Result result;
-  DistanceField values = readDistances(field, {}, &result.periodic);
+  Turn turn;
+  DistanceField values = readDistances(field, {.turn = &turn}, &result.periodic);
   result.origins = readOriginsVdb(origins.path());
   if (result.origins.size() != values.size()) {
     throw InputError(origins.name() + ": origins of " +

@@ -23,8 +23,11 @@ std::string readableRange(const Setting& setting) {
   const bool positive = setting.least == kAboveZero.least;
   const std::string unit = setting.unit.empty() ? "" : " " + setting.unit;
   if (least && most && !positive)
-    return numberText(setting.least) + " to " + numberText(setting.most) + unit;
-  const std::string what = setting.type == SettingType::Integer ? "a whole number" : "a number";
+    return numberText(setting.least) + " to " + numberText(setting.most) + unit +
+           (setting.type == SettingType::IntegerOrAuto ? ", or auto" : "");
+  const bool whole =
+      setting.type == SettingType::Integer || setting.type == SettingType::IntegerOrAuto;
+  const std::string what = whole ? "a whole number" : "a number";
   if (positive)
     return what + " above 0" + (most ? ", at most " + numberText(setting.most) : "") + unit;
   if (least) return what + " from " + numberText(setting.least) + " on" + unit;
@@ -37,14 +40,15 @@ void requireRange(const Setting& setting, const std::string& text, double value)
     throw InputError(named(setting, text) + ": expected " + readableRange(setting));
 }
 
-/// One number or three; throws unless each is above 0.
-Vec3d readTriple(const std::string& text, const std::string& what) {
+/// One number or three; throws unless each is above 0, or at least that where 0 is allowed.
+Vec3d readTriple(const std::string& text, const std::string& what, bool zero = false) {
   const std::size_t count = split(text, ',').size();
   if (count != 1 && count != 3)
     throw InputError(what + ": expected one number or three, as in 2,2,1");
   const std::vector<double> numbers = parseNumbers(text, count, what);
   for (const double number : numbers)
-    if (!(number > 0)) throw InputError(what + ": expected numbers above 0");
+    if (!(number > 0 || (zero && number == 0)))
+      throw InputError(what + ": expected numbers " + (zero ? "from 0 on" : "above 0"));
   return count == 1 ? Vec3d{numbers[0], numbers[0], numbers[0]}
                     : Vec3d{numbers[0], numbers[1], numbers[2]};
 }
@@ -57,6 +61,8 @@ std::string_view typeName(SettingType type) {
       return "";
     case SettingType::Integer:
       return "N";
+    case SettingType::IntegerOrAuto:
+      return "N|auto";
     case SettingType::Number:
       return "NUMBER";
     case SettingType::Choice:
@@ -106,6 +112,9 @@ void checkSetting(const Setting& setting, const std::string& text) {
     case SettingType::Flag:
       readFlag(setting, text);
       break;
+    case SettingType::IntegerOrAuto:
+      if (text == "auto") break;
+      [[fallthrough]];
     case SettingType::Integer:
       readInteger(setting, text);
       break;
@@ -172,9 +181,11 @@ std::size_t readChoice(const Setting& setting, const std::string& text) {
 }
 
 Vec3i readSize(const Setting& setting, const std::string& text) {
-  const Vec3d triple = readTriple(text, named(setting, text));
+  const bool zero = setting.least == 0;
+  const Vec3d triple = readTriple(text, named(setting, text), zero);
   Vec3i size;
-  const double most = std::min(setting.most, 32767.0), least = std::max(setting.least, 1.0);
+  const double most = std::min(setting.most, 32767.0);
+  const double least = zero ? 0 : std::max(setting.least, 1.0);
   for (int axis = 0; axis < 3; ++axis) {
     if (triple[axis] != std::floor(triple[axis]) || triple[axis] > most || triple[axis] < least) {
       throw InputError(named(setting, text) + ": expected whole numbers" +

@@ -22,16 +22,17 @@ namespace exemplar {
 
 /// What a setting's text is read as.
 enum class SettingType {
-  Flag,        ///< "true" or "false"
-  Integer,     ///< "12"
-  Number,      ///< "0.5"
-  Choice,      ///< one of `Setting::choices`
-  Size,        ///< "16", or "16,16,8": whole numbers along x, y, z
-  Lengths,     ///< "2", or "1,1,2": numbers above 0 along x, y, z
-  Axes,        ///< "x,y", "xy" or "none"
-  AxesOrAuto,  ///< the same, or "auto"
-  Text,        ///< anything
-  File,        ///< a path
+  Flag,           ///< "true" or "false"
+  Integer,        ///< "12"
+  Number,         ///< "0.5"
+  Choice,         ///< one of `Setting::choices`
+  Size,           ///< "16", or "16,16,8": whole numbers along x, y, z
+  Lengths,        ///< "2", or "1,1,2": numbers above 0 along x, y, z
+  Axes,           ///< "x,y", "xy" or "none"
+  AxesOrAuto,     ///< the same, or "auto"
+  IntegerOrAuto,  ///< "12" or "auto"
+  Text,           ///< anything
+  File,           ///< a path
 };
 /// "number", "X,Y,Z", ...: what stands for a value in help and tables.
 std::string_view typeName(SettingType type);

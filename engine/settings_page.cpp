@@ -18,6 +18,7 @@ std::string_view typeWord(SettingType type) {
   switch (type) {
     case SettingType::Flag:
       return "flag";
+    case SettingType::IntegerOrAuto:
     case SettingType::Integer:
       return "integer";
     case SettingType::Number:

@@ -98,7 +98,7 @@ DistanceField sampleMeshResult(const TriangleMesh& result, const DistanceField& 
                    {.voxelSize = h,
                     .box = Box3d{low, low + size * h},
                     .halfWidth = std::clamp(example.truncation / h, 2.0, kMostHalfWidth),
-                    .cutByBox = true},
+                    .cutByBox = Axes::every()},
                    progress);
 }
 

@@ -41,6 +41,8 @@ struct Frame {
   Vec3d origin;
   double voxelSize;
   Vec3i size;
+  Axes cut;   // the box cuts the mesh along these,
+  Vec3d end;  // and ends there, as an index
 
   Vec3d index(const Vec3d& xyz) const { return (xyz - origin) / voxelSize; }
 };
@@ -52,14 +54,16 @@ Frame frameFor(const TriangleMesh& mesh, const MeshToSdfOptions& options) {
   if (options.voxelSize == 0 && (options.resolution < 1 || options.resolution > 4096))
     throw InputError("`resolution` is " + std::to_string(options.resolution) +
                      "; it must be 1..4096");
-  if (options.padding < 0)
-    throw InputError("`padding` is " + std::to_string(options.padding) +
-                     "; it must be >= 0 voxels");
+  for (int axis = 0; axis < 3; ++axis) {
+    const int padding = options.padding[axis];
+    if (padding < 0)
+      throw InputError("`padding` is " + std::to_string(padding) + "; it must be >= 0 voxels");
+    if (options.cutByBox[axis] && padding > 0)
+      throw InputError("`cutByBox` is on and `padding` is " + std::to_string(padding) +
+                       "; what lies beyond a cut is unknown: `padding` must be 0");
+  }
   if (!(options.halfWidth > 0))
     throw InputError("`halfWidth` is " + text(options.halfWidth) + "; it must be > 0 voxels");
-  if (options.cutByBox && options.padding > 0)
-    throw InputError("`cutByBox` is on and `padding` is " + std::to_string(options.padding) +
-                     "; what lies beyond a cut is unknown: `padding` must be 0");
   const Box3d box = options.box ? *options.box : boundingBox(mesh);
   if (box.empty() || !isFinite(box.min) || !isFinite(box.max))
     throw InputError(options.box ? "the box to sample is empty or not finite"
@@ -71,14 +75,17 @@ Frame frameFor(const TriangleMesh& mesh, const MeshToSdfOptions& options) {
   Vec3d size{};
   for (int axis = 0; axis < 3; ++axis) {
     // Sides that are multiples of the voxel but for rounding are taken as such.
-    size[axis] = std::max(1.0, std::ceil(side[axis] / h - 1e-6)) + 2.0 * options.padding;
+    const double voxels = options.cutByBox[axis] ? std::floor(side[axis] / h + 1e-6)
+                                                 : std::ceil(side[axis] / h - 1e-6);
+    size[axis] = std::max(1.0, voxels) + 2.0 * options.padding[axis];
   }
   requireMemory(size.x * size.y * size.z * 12,
                 "a distance field of " + text(size.x) + " x " + text(size.y) + " x " +
                     text(size.z) + " samples",
                 "use a lower `resolution` or a larger `voxelSize`");
-  const double start = h * (0.5 - options.padding);
-  return {box.min + Vec3d{start, start, start}, h, cast<int>(size)};
+  const Vec3d start = Vec3d{0.5, 0.5, 0.5} - cast<double>(options.padding);
+  const Vec3d origin = box.min + start * h;
+  return {origin, h, cast<int>(size), options.cutByBox, (box.max - origin) / h};
 }
 
 // The samples' distances in voxels from `surface`, up to `limit`. Where nothing bounds a solid
@@ -90,15 +97,16 @@ void measure(const TriangleTree& surface, double limit, Array3D<float>& distance
   sampleDistances(surface, limit, {}, distances, progress);
 }
 
-// What is left of triangles (in voxels, samples at whole numbers) without those in the box's faces.
-std::vector<Corners> withoutCuts(std::vector<Corners> triangles, const Vec3i& size) {
+// What is left of triangles (in voxels, samples at whole numbers) without those in the box's faces
+// across some axes, or beyond and parallel to them.
+std::vector<Corners> withoutCuts(std::vector<Corners> triangles, const Frame& frame) {
   constexpr double kInFace = 1e-3;  // voxels: files round positions
   const auto isCut = [&](const Corners& t) {
+    const Vec3d low = min(min(t[0], t[1]), t[2]), high = max(max(t[0], t[1]), t[2]);
     for (int axis = 0; axis < 3; ++axis)
-      for (const double face : {-0.5, size[axis] - 0.5})
-        if (std::all_of(t.begin(), t.end(),
-                        [&](const Vec3d& p) { return std::abs(p[axis] - face) < kInFace; }))
-          return true;
+      if (frame.cut[axis] && high[axis] - low[axis] < kInFace &&
+          (high[axis] < -0.5 + kInFace || low[axis] > frame.end[axis] - kInFace))
+        return true;
     return false;
   };
   std::erase_if(triangles, isCut);
@@ -221,7 +229,7 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
     BoundingSurface surface =
         boundingTriangles(soup, *tree, solid, frame.size, limit + 4, progress.part(0.15, 0.4));
     std::vector<Corners> bounding = std::move(surface.triangles);
-    if (options.cutByBox) bounding = withoutCuts(std::move(bounding), frame.size);
+    if (options.cutByBox.any()) bounding = withoutCuts(std::move(bounding), frame);
     progress.report("measuring distances", 0.4);
     if (!soup.closed || !surface.fine) {
       measureOpen(solid, std::move(bounding), surface.fine, limit, distances, inside,
@@ -241,8 +249,8 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
       inside = floodedInside(tree->triangles(), frame.size, progress);
     }
     const Progress measuring = progress.part(0.4, 0.8);
-    if (options.cutByBox) {
-      measure(TriangleTree(withoutCuts(tree->triangles(), frame.size), progress), limit, distances,
+    if (options.cutByBox.any()) {
+      measure(TriangleTree(withoutCuts(tree->triangles(), frame), progress), limit, distances,
               measuring);
     } else {
       measure(*tree, limit, distances, measuring);

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "core/axes.h"
 #include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
@@ -22,24 +23,32 @@ enum class SignSource {
                   ///< whose triangles are not consistently oriented; overlaps are outside
 };
 
+/// Voxels beyond a box on each side: one number for all axes, or one for each.
+struct Padding : Vec3i {
+  constexpr Padding(int all = 0) : Vec3i{all, all, all} {}
+  constexpr Padding(const Vec3i& each) : Vec3i(each) {}
+};
+
 struct MeshToSdfOptions {
   double voxelSize = 0;      ///< world units, > 0; 0 means: `resolution` decides
   int resolution = 64;       ///< samples along the box's longest side where voxelSize is 0; 1..4096
   std::optional<Box3d> box;  ///< what to sample; the mesh's bounding box by default
-  int padding = 0;           ///< voxels added around the box on each side, >= 0
+  Padding padding = 0;       ///< voxels added around the box, >= 0
   double halfWidth = 3;      ///< the distance is exact up to this many voxels, then clamped; > 0;
                              ///< infinite: exact everywhere
   SignSource sign = SignSource::Automatic;
-  /// The box is a window into something larger, and triangles that lie in its faces are where the
-  /// window cut it: they bound the solid, but no distance is measured from them. `fieldToMesh`
-  /// closes surfaces so. Only with `padding` 0.
-  bool cutByBox = false;
+  /// Along these axes the box is a window into something larger, and triangles that lie in its
+  /// faces, or beyond and parallel to them, are where the window cut it: they bound the solid, but
+  /// no distance is measured from them. `fieldToMesh` closes surfaces so. Only where `padding` is
+  /// 0.
+  Axes cutByBox;
 };
 
 /// The signed distance of a mesh's solid.
 ///
 /// Samples are at voxel centers: `box` is cut into cubes of `voxelSize`, the last ones reaching
-/// beyond it where its sides are no multiples, and sample (0, 0, 0) is the center of the first.
+/// beyond it where its sides are no multiples (not along axes of `cutByBox`, where they end before
+/// it does), and sample (0, 0, 0) is the center of the first.
 /// Geometry outside the box counts.
 ///
 /// Distances are those of the nearest triangle, exact but for rounding to float: OpenVDB's mesh to

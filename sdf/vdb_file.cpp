@@ -15,9 +15,9 @@
 
 #include "core/cells.h"
 #include "core/error.h"
+#include "core/loop_progress.h"
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "core/loop_progress.h"
 #include "sdf/openvdb_ready.h"
 #include "sdf/redistance.h"
 #include "sdf/vdb_grids.h"
@@ -34,6 +34,7 @@ using openvdb::CoordBBox;
 constexpr const char* kTruncation = "exemplar_truncation";
 constexpr const char* kWraps = "exemplar_wraps";
 constexpr const char* kUnit = "exemplar_unit";
+constexpr const char* kScale = "exemplar_scale";  // of origins
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw InputError(path.string() + ": " + what);
@@ -88,26 +89,33 @@ double unitOf(const openvdb::GridBase& grid) {
 struct Placement {
   double voxelSize;
   Vec3d origin;  // of the box's first sample
+  Turn turn;     // from there to where it is in the file
 };
 
-Placement placement(const openvdb::GridBase& grid, const CoordBBox& box, const fs::path& path) {
+// Grids that are turned about the vertical are refused unless `turns`.
+Placement placement(const openvdb::GridBase& grid, const CoordBBox& box, bool turns,
+                    const fs::path& path) {
   const auto& transform = grid.transform();
   const auto corner = [&](int x, int y, int z) {
     return transform.indexToWorld(openvdb::Vec3d(x, y, z));
   };
   const openvdb::Vec3d zero = corner(0, 0, 0), dx = corner(1, 0, 0) - zero,
                        dy = corner(0, 1, 0) - zero, dz = corner(0, 0, 1) - zero;
-  const double h = dx[0], tolerance = 1e-5 * std::abs(h);
+  const double h = std::hypot(dx[0], dx[1]), tolerance = 1e-5 * std::abs(h);
+  const bool turned = turns && !(std::abs(dx[1]) <= tolerance && dx[0] > 0);
+  const double c = turned ? dx[0] : h, s = turned ? dx[1] : 0;
   const bool cubes = transform.isLinear() && h > 0 && std::isfinite(h) &&
-                     (dx - openvdb::Vec3d(h, 0, 0)).length() <= tolerance &&
-                     (dy - openvdb::Vec3d(0, h, 0)).length() <= tolerance &&
+                     (dx - openvdb::Vec3d(c, s, 0)).length() <= tolerance &&
+                     (dy - openvdb::Vec3d(-s, c, 0)).length() <= tolerance &&
                      (dz - openvdb::Vec3d(0, 0, h)).length() <= tolerance;
   const openvdb::Vec3d first = transform.indexToWorld(box.min());
   if (!cubes || !std::isfinite(first.length()))
-    fail(path, "the voxels of the grid \"" + grid.getName() +
-                   "\" are no axis-aligned cubes; resample it to a uniform voxel size");
+    fail(path, "the voxels of the grid \"" + grid.getName() + "\" are no " +
+                   (turns ? "upright" : "axis-aligned") +
+                   " cubes; resample it to a uniform voxel size");
   const double unit = unitOf(grid);
-  return {h / unit, Vec3d{first[0], first[1], first[2]} / unit};
+  const Vec3d origin = Vec3d{first[0], first[1], first[2]} / unit;
+  return {(turned ? h : dx[0]) / unit, origin, turned ? Turn(std::atan2(s, c), origin) : Turn()};
 }
 
 Vec3i sizeOf(const CoordBBox& box) {
@@ -136,12 +144,14 @@ Array3D<T> readDense(const Grid& grid, const CoordBBox& box, const Progress& pro
 
 // The values as signed distances: as they are, or, for a fog volume, measured from its 0.5.
 template <class Grid>
-DistanceField fieldFrom(const Grid& grid, const fs::path& path, const Progress& progress) {
+DistanceField fieldFrom(const Grid& grid, const fs::path& path, Turn* turn,
+                        const Progress& progress) {
   const auto gridClass = grid.getGridClass();
   CoordBBox box = sampleBox(grid, path);
   // A density's active voxels may end right at its surface.
   if (gridClass != openvdb::GRID_LEVEL_SET) box.expand(1);
-  const Placement place = placement(grid, box, path);
+  const Placement place = placement(grid, box, turn != nullptr, path);
+  if (turn) *turn = place.turn;
   DistanceField field;
   field.voxelSize = place.voxelSize;
   field.origin = place.origin;
@@ -178,11 +188,16 @@ DistanceField fieldFrom(const Grid& grid, const fs::path& path, const Progress& 
 }
 
 template <class Grid>
-void place(Grid& grid, const DistanceField& field) {
+void place(Grid& grid, const DistanceField& field, const Turn& turn) {
   const Vec3i size = field.size();
-  const double unit = unitFor(field.voxelSize);
-  const Vec3d origin = field.origin * unit;
-  auto transform = openvdb::math::Transform::createLinearTransform(field.voxelSize * unit);
+  const double unit = unitFor(field.voxelSize), voxel = field.voxelSize * unit;
+  const Vec3d origin = turn(field.origin) * unit;
+  auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+  if (!turn.none()) {
+    const Vec3d x = turn.direction({voxel, 0, 0}), y = turn.direction({0, voxel, 0});
+    transform = openvdb::math::Transform::createLinearTransform(
+        openvdb::Mat4R(x.x, x.y, 0., 0., y.x, y.y, 0., 0., 0., 0., voxel, 0., 0., 0., 0., 1.));
+  }
   transform->postTranslate({origin.x, origin.y, origin.z});
   if (unit != 1) grid.insertMeta(kUnit, openvdb::DoubleMetadata(unit));
   grid.setTransform(transform);
@@ -238,7 +253,7 @@ openvdb::GridBase::Ptr chooseGrid(const fs::path& path, const openvdb::GridPtrVe
 
 }  // namespace
 
-void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wraps,
+void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wraps, const Turn& turn,
               const Progress& progress) {
   requireSamples(path, field.values.count());
   progress.report("packing the volume", 0);
@@ -254,7 +269,7 @@ void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wrap
   const auto grid = openvdb::FloatGrid::create(background);
   grid->setName("surface");
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  place(*grid, field);
+  place(*grid, field, turn);
   grid->insertMeta(kTruncation, openvdb::FloatMetadata(field.truncation));
   if (wraps.any()) {
     grid->insertMeta(kWraps, openvdb::Vec3IMetadata({wraps.x, wraps.y, wraps.z}));
@@ -288,7 +303,7 @@ DistanceField readVdb(const fs::path& path, const ReadVdbOptions& options, Axes*
     const openvdb::GridBase::Ptr chosen = chooseGrid(path, grids, options);
     const auto read = [&](const auto& grid) {
       if (wraps) *wraps = wrapsOf(grid);
-      return fieldFrom(grid, path, progress.part(0.3, 1));
+      return fieldFrom(grid, path, options.turn, progress.part(0.3, 1));
     };
     if (const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(chosen)) return read(*grid);
     return read(*openvdb::gridPtrCast<openvdb::DoubleGrid>(chosen));
@@ -298,7 +313,7 @@ DistanceField readVdb(const fs::path& path, const ReadVdbOptions& options, Axes*
 }
 
 void writeOriginsVdb(const fs::path& path, const Origins& origins, const DistanceField& field,
-                     const Progress& progress) {
+                     const OriginsVdbOptions& options, const Progress& progress) {
   requireSamples(path, origins.count());
   openvdbReady();
   // Backgrounds that no cell has: every cell is an active voxel.
@@ -306,8 +321,12 @@ void writeOriginsVdb(const fs::path& path, const Origins& origins, const Distanc
   const auto sources = openvdb::Int32Grid::create(-1);
   cells->setName("origin");
   sources->setName("source");
-  place(*cells, field);
-  place(*sources, field);
+  place(*cells, field, options.turn);
+  place(*sources, field, options.turn);
+  if (options.scale) {
+    const Vec3d& scale = *options.scale;
+    cells->insertMeta(kScale, openvdb::Vec3DMetadata({scale.x, scale.y, scale.z}));
+  }
   stateBox(*cells, origins.size());
   stateBox(*sources, origins.size());
   auto cell = cells->getAccessor();
@@ -323,6 +342,19 @@ void writeOriginsVdb(const fs::path& path, const Origins& origins, const Distanc
     });
   }
   writeVdbGrids(path, {cells, sources}, progress.part(0.5, 1));
+}
+
+std::optional<Vec3d> readOriginsScale(const fs::path& path) {
+  return withGrids<std::optional<Vec3d>>(
+      path, [&](const openvdb::GridPtrVec& grids) -> std::optional<Vec3d> {
+        const auto cells = firstGrid<openvdb::Vec3IGrid>(grids, "origin");
+        if (!cells) return std::nullopt;
+        const auto stated = cells->getMetadata<openvdb::Vec3DMetadata>(kScale);
+        if (!stated) return std::nullopt;
+        const openvdb::Vec3d& scale = stated->value();
+        if (!(scale[0] > 0 && scale[1] > 0 && scale[2] > 0)) return std::nullopt;
+        return Vec3d{scale[0], scale[1], scale[2]};
+      });
 }
 
 Origins readOriginsVdb(const fs::path& path, const Progress& progress) {

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/axes.h"
 #include "core/origin.h"
 #include "core/progress.h"
+#include "core/turn.h"
 #include "core/warnings.h"
 #include "sdf/distance_field.h"
 
@@ -20,12 +22,17 @@ namespace exemplar {
 /// last sample beside its first; the file records them. OpenVDB has no voxels below 0.00001:
 /// smaller ones are written 1,000 (or 1,000,000, ...) times as large, millimeters for meters, which
 /// the file records and `readVdb` takes back. Throws `InputError` naming the file, and `Cancelled`.
+///
+/// `turn` takes the field to where it is in the file, whose transform says so.
 void writeVdb(const std::filesystem::path& path, const DistanceField& field, const Axes& wraps = {},
-              const Progress& progress = {});
+              const Turn& turn = {}, const Progress& progress = {});
 
 struct ReadVdbOptions {
   std::string grid;              ///< the name of the grid to read; empty: see `readVdb`
   Warnings* warnings = nullptr;  ///< which grids are left out where the file has several
+  /// Receives how the grid lies turned about the vertical against the field; where it is null, such
+  /// grids are refused.
+  Turn* turn = nullptr;
 };
 
 /// Reads a grid of floats or doubles of a `.vdb` (a level set, or a fog volume whose 0.5 becomes
@@ -38,8 +45,16 @@ DistanceField readVdb(const std::filesystem::path& path, const ReadVdbOptions& o
 
 /// Origins as an int32 vector grid "origin" (example cell i, j, k) and an int32 grid "source"
 /// (example and quarter turns) on the transform of `field`, and back.
+struct OriginsVdbOptions {
+  Turn turn;  ///< as that of `writeVdb`
+  /// How large the result was asked to be, in sizes of the example, which decides how an example is
+  /// read; `readOriginsScale` finds it again.
+  std::optional<Vec3d> scale;
+};
 void writeOriginsVdb(const std::filesystem::path& path, const Origins& origins,
-                     const DistanceField& field, const Progress& progress = {});
+                     const DistanceField& field, const OriginsVdbOptions& options = {},
+                     const Progress& progress = {});
+std::optional<Vec3d> readOriginsScale(const std::filesystem::path& path);
 Origins readOriginsVdb(const std::filesystem::path& path, const Progress& progress = {});
 
 }  // namespace exemplar

@@ -339,9 +339,9 @@ TEST(MeshToSdf, MeasuresNoDistanceFromWhereTheBoxCutIt) {
   for (const SignSource sign : {SignSource::Automatic, SignSource::Flood, SignSource::RayParity}) {
     MeshToSdfOptions options{
         .resolution = 20, .box = Box3d{{0, 0, 0}, {1, 1, 1}}, .halfWidth = 30, .sign = sign};
-    options.cutByBox = true;
+    options.cutByBox = Axes::every();
     const DistanceField window = meshToSdf(ground, options);
-    options.cutByBox = false;
+    options.cutByBox = {};
     const DistanceField object = meshToSdf(ground, options);
     double different = 0;
     for (std::size_t s = 0; s < window.values.count(); ++s) {
@@ -351,7 +351,7 @@ TEST(MeshToSdf, MeasuresNoDistanceFromWhereTheBoxCutIt) {
     }
     EXPECT_GT(different, 0.3);  // deep in the ground, the cut is near
   }
-  EXPECT_THAT(inputError([&] { meshToSdf(ground, {.padding = 1, .cutByBox = true}); }),
+  EXPECT_THAT(inputError([&] { meshToSdf(ground, {.padding = 1, .cutByBox = Axes::every()}); }),
               HasSubstr("`padding` must be 0"));
 }
 
