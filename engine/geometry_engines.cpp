@@ -244,9 +244,12 @@ class QuiltingEngine final : public FieldEngine {
     QuiltingOptions options = optionsOf(examples, request);
     const DistanceField& example = examples.front().field();
     const bool found = !options.stationary;
-    if (found)
+    if (found) {
       options.stationary =
           withoutSideways(findStationaryAxes(example), examples.front(), options.size);
+      if (examples.front().goesOn.any())
+        for (int axis = 0; axis < 3; ++axis) options.inPlace[axis] = !(*options.stationary)[axis];
+    }
     Result result =
         resultOf(synthesizeByQuilting(example, options, progress), "quilting", examples);
     noteStationary(*options.stationary, found, result);

@@ -26,7 +26,7 @@ int placeWindow(const PyramidLevel& level, int axis) {
       1, static_cast<int>(source * std::clamp(stretch * kShareOfStretch, kLeastShift, kMostShift)));
 }
 
-Vec3i blockWindow(const PyramidLevel& level, const Axes& stationary) {
+Vec3i blockWindow(const PyramidLevel& level, const Axes& stationary, const Axes& inPlace) {
   const Margin& air = level.source.air;
   const Vec3i n = level.source.parts[0].size();
   const int longest = std::max({n.x, n.y, n.z});
@@ -36,7 +36,7 @@ Vec3i blockWindow(const PyramidLevel& level, const Axes& stationary) {
     // Air above, say, and below what the box cuts off: parts that moved would lose their ground.
     const bool rests = (air.before[axis] > 0) != (air.after[axis] > 0);
     const bool keepsSize = level.target.size[axis] == n[axis];
-    if (rests && keepsSize) {
+    if ((rests || inPlace[axis]) && keepsSize) {
       window[axis] = 0;
     } else if (object && keepsSize) {
       const bool thin = 2 * n[axis] < longest;
@@ -48,8 +48,8 @@ Vec3i blockWindow(const PyramidLevel& level, const Axes& stationary) {
   return window;
 }
 
-Vec3i patchWindow(const PyramidLevel& level, const Axes& stationary) {
-  Vec3i window = blockWindow(level, stationary);
+Vec3i patchWindow(const PyramidLevel& level, const Axes& stationary, const Axes& inPlace) {
+  Vec3i window = blockWindow(level, stationary, inPlace);
   for (int axis = 0; axis < 3; ++axis) {
     if (window[axis] < 0) continue;
     const double n = level.source.parts[0].size()[axis];

@@ -18,9 +18,9 @@ int placeWindow(const PyramidLevel& level, int axis);
 /// How far from its proportional place along each axis a block may come from, samples; negative:
 /// any distance. An object that is to be as long as it was keeps its ends, so its parts cannot go
 /// far, and where it is thin they stay. So do they along an axis along which the solid rests on one
-/// side of its box, as ground does.
-Vec3i blockWindow(const PyramidLevel& level, const Axes& stationary);
+/// side of its box, as ground does, and along axes that are `inPlace`.
+Vec3i blockWindow(const PyramidLevel& level, const Axes& stationary, const Axes& inPlace = {});
 /// The same for patches: as far as those of a block may be whose middle is within its window.
-Vec3i patchWindow(const PyramidLevel& level, const Axes& stationary);
+Vec3i patchWindow(const PyramidLevel& level, const Axes& stationary, const Axes& inPlace = {});
 
 }  // namespace exemplar

@@ -151,7 +151,7 @@ class Quilting {
     progress.report(stage(levels_ - 1), 0);
     QuiltOptions quilting;
     quilting.seed = options_.seed;
-    quilting.window = blockWindow(level_, stationary_);
+    quilting.window = blockWindow(level_, stationary_, options_.inPlace);
     quilting.repetition = repetition_;
     quilting.cut = [&](PyramidSources& sources, const Progress& cutting) {
       cutSeams(level_, shownBy(sources), sources, cutting);
@@ -193,7 +193,7 @@ class Quilting {
     repair.seed = options_.seed;
     repair.rounds = options_.rounds;
     repair.stride = kStride;
-    repair.window = patchWindow(level_, stationary_);
+    repair.window = patchWindow(level_, stationary_, options_.inPlace);
     repair.truncation = air_;
     matches_ += repairSeams(level_, repair, sources_, target_, progress.part(0.5, 1));
   }

@@ -20,6 +20,8 @@ struct QuiltingOptions {
   std::optional<int> levels;
   double truncation = 4;           ///< distances count up to here, in voxels of the level; > 0
   std::optional<Axes> stationary;  ///< found from the example by default
+  /// Along which parts stay where they are, if the result is as long there as the example.
+  Axes inPlace;
   /// Along which axes the result continues at its opposite side, so that copies of it tile space.
   /// Only what repeats can (`suitsQuilting`).
   Axes periodic;
