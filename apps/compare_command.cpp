@@ -96,7 +96,9 @@ Command addCompareCommand(CLI::App& app) {
   command->add_option("--seeds", options->seeds, "how many seeds each engine gets")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--seed", options->firstSeed, "the first of them")->capture_default_str();
+  command->add_option("--seed", options->firstSeed, "the first of them")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command
       ->add_option("--engines", options->engines,
                    "which: those of synth, or overlap (model on blocks that overlap; slow on solid "

@@ -47,6 +47,10 @@ void measureFiles(const Options& options, Terminal& terminal) {
   if (!options.report.empty()) requireOutput(options.report, ".html");
   RenderOptions picture = renderOptions(options.picture);
   const Request request = requestOf(options.settings);
+  if (request.extent.scale && !options.origins.empty())
+    throw InputError("`scale`: the origins say the size already; give one of the two");
+  for (const std::string* path : {&options.example, &options.result, &options.origins})
+    if (!path->empty()) requireThere(*path);
   const Progress& progress = terminal.progress();
   ReadOptions reading = readingOf(options.settings, Form::Field);
   // Read as it was for the synthesis.

@@ -113,15 +113,15 @@ Plan planOf(const Options& options) {
   surfaceSettings(form).apply(settings, plan.surface);
   plan.output = {plan.reading.mesh, plan.surface.instances, plan.picture, {}};
   requireDistinct(options);
-  if (plan.sources.size() > 1 && !plan.engine->mixes()) {
-    throw InputError("the engine " + std::string(plan.engine->name()) + " takes one example, not " +
-                     std::to_string(plan.sources.size()));
-  }
+  requireOutputKind(options.output, settings.has("frames"), plan.surface.instances);
+  requireSurface(plan.surface, plan.sources.size());
   // What is left is asked of the engine.
   for (const auto& table : {readingSettings(form).settings(), surfaceSettings(form).settings()})
     for (const Setting& setting : table) settings.remove(setting.key);
   plan.request = requestOf(settings, plan.reading);
   if (form == Form::Field) plan.reading.wanted = plan.request.extent;
+  plan.engine->check(plan.request, plan.sources.size());
+  for (const Source& source : plan.sources) requireThere(source);
   return plan;
 }
 
@@ -134,8 +134,7 @@ struct Times {
 /// Refuses what cannot be written before it is made.
 void checkExtent(const Options& options, const Plan& plan, std::span<const Example> examples) {
   const Vec3i size = plan.engine->extentOf(examples, plan.request);
-  const int frames = plan.request.settings.has("frames") ? 1 : 0;
-  requireOutputFits(options.output, plan.engine->form(), size, frames, plan.surface.instances);
+  requireOutputFits(options.output, plan.engine->form(), size);
   requireSurface(plan.surface, examples);
 }
 

@@ -52,19 +52,24 @@ void checkRequest(const Engine& engine, const Request& request) {
 
 }  // namespace
 
+void Engine::check(const Request& request, std::size_t examples) const {
+  checkRequest(*this, request);
+  if (examples == 0) throw InputError("there is no example");
+  if (examples > 1 && !mixes()) {
+    throw InputError("the engine " + std::string(name()) + " takes one example, not " +
+                     std::to_string(examples));
+  }
+  checkFurther(request, examples);
+}
+
 Result Engine::run(std::span<const Example> examples, const Request& request,
                    const Progress& progress) const {
-  checkRequest(*this, request);
-  if (examples.empty()) throw InputError("there is no example");
+  check(request, examples.size());
   for (const Example& example : examples) {
     if (!accepts(example)) {
       throw InputError(example.name() + ": the engine " + std::string(name()) +
                        " does not take this kind of example");
     }
-  }
-  if (examples.size() > 1 && !mixes()) {
-    throw InputError("the engine " + std::string(name()) + " takes one example, not " +
-                     std::to_string(examples.size()));
   }
   Result result;
   try {

@@ -39,12 +39,18 @@ class Engine {
   /// The size of the request's result, in samples or cells. Throws `InputError` where it cannot be.
   virtual Vec3i extentOf(std::span<const Example> examples, const Request& request) const = 0;
 
+  /// Throws `InputError` for a request that it cannot honor whatever the examples hold, so that
+  /// nothing has to be read to find out. `run` checks it, too.
+  void check(const Request& request, std::size_t examples) const;
+
   /// Makes more of the examples. What cannot be is an outcome, never an empty result; `Cancelled`
   /// is one of them. Throws `InputError` for requests that it cannot honor.
   Result run(std::span<const Example> examples, const Request& request,
              const Progress& progress = {}) const;
 
  protected:
+  /// What `check` finds wrong beyond keys and the texts of single settings.
+  virtual void checkFurther(const Request&, std::size_t) const {}
   /// `run` without its checks; throws `Cancelled`.
   virtual Result synthesize(std::span<const Example> examples, const Request& request,
                             const Progress& progress) const = 0;

@@ -115,7 +115,8 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
   using O = ReadOptions;
   const auto sceneSeed = [] {
     return settingRow<O>("scene-seed", &O::sceneSeed,
-                         "another sample of a scene's own random process", {}, "", "the scene's");
+                         "another sample of a scene's own random process", kFromZero, "",
+                         "the scene's");
   };
   const auto cellSize = [] {
     return settingRow<O>("cell-size", &O::cellSize,
@@ -192,6 +193,8 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
 void checkReading(const ReadOptions& options) {
   if (options.scatter && options.padding)
     throw InputError("`scatter` and `padding` both say where there is air; give one of the two");
+  if (options.form == Form::Labels && options.cell && options.resolution)
+    throw InputError("`cell` and `resolution` both say how large cells are; give one of the two");
 }
 
 Example readExample(const Source& source, const ReadOptions& options, const Progress& progress) {

@@ -4,6 +4,7 @@
 // Geometry synthesis: from fields to a field.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -39,6 +40,20 @@ Vec3i fieldSize(std::span<const Example> examples, const Request& request) {
   return size;
 }
 
+void requireRegion(const Source& source) {
+  requireThere(source);
+  const SourceKind kind = sourceKind(source);
+  if (kind != SourceKind::Mesh && kind != SourceKind::Volume)
+    throw InputError("`keep`: " + source.name() + " is neither a mesh nor a .vdb");
+}
+
+void requireGuide(const Source& source) {
+  requireThere(source);
+  const SourceKind kind = sourceKind(source);
+  if (kind == SourceKind::Labels || kind == SourceKind::Picture)
+    throw InputError("`guide`: " + source.name() + " is neither a mesh, a volume nor a height map");
+}
+
 /// A solid to ask for what is inside: a mesh's, or a volume's, and from there to where it lies.
 struct Region {
   DistanceField field;
@@ -47,16 +62,15 @@ struct Region {
 Region readRegion(const Source& source, double voxelSize, const ReadOptions& reading,
                   const Progress& progress) {
   Region region;
+  requireRegion(source);
   switch (sourceKind(source)) {
     case SourceKind::Mesh:
       region.field = meshToSdf(readTriangles(source, reading.mesh),
                                {.voxelSize = voxelSize, .padding = kRegionPadding}, progress);
       return region;
-    case SourceKind::Volume:
+    default:
       region.field = readDistances(source, {.turn = &region.turn});
       return region;
-    default:
-      throw InputError("`keep`: " + source.name() + " is neither a mesh nor a .vdb");
   }
 }
 
@@ -214,6 +228,14 @@ class FieldEngine : public Engine {
   Vec3i extentOf(std::span<const Example> examples, const Request& request) const override {
     return fieldSize(examples, request);
   }
+
+ protected:
+  void checkFurther(const Request& request, std::size_t) const override {
+    if (request.settings.has("guide-weight") && !request.guide)
+      throw InputError("`guide-weight`: there is no `guide` to weigh");
+    if (request.decided.keep) requireRegion(*request.decided.keep);
+    if (request.guide) requireGuide(*request.guide);
+  }
 };
 
 class QuiltingEngine final : public FieldEngine {
@@ -276,8 +298,6 @@ class VotingEngine final : public FieldEngine {
                     const Progress& progress) const override {
     VotingOptions options;
     votingTable().apply(request.settings, options);
-    if (request.settings.has("guide-weight") && !request.guide)
-      throw InputError("`guide-weight`: there is no `guide` to weigh");
     options.size = fieldSize(examples, request);
     options.seed = request.seed;
     options.periodic = request.periodic;
@@ -358,6 +378,13 @@ class BlocksEngine final : public FieldEngine {
   std::span<const std::string_view> honors() const override { return {}; }
 
  protected:
+  void checkFurther(const Request& request, std::size_t) const override {
+    BlocksOptions options;
+    table().apply(request.settings, options);
+    if (!std::has_single_bit(static_cast<unsigned>(options.block)))
+      throw InputError("`block` " + std::to_string(options.block) +
+                       ": expected a power of two, 2 to 256");
+  }
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {
     BlocksOptions options;

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "engine/engines.h"
 #include "engine/model_request.h"
+#include "engine/words.h"
 
 namespace exemplar {
 namespace {
@@ -71,16 +72,30 @@ class ModelEngine final : public Engine {
   }
 
  protected:
+  void checkFurther(const Request& request, std::size_t examples) const override {
+    ModelSettings settings;
+    modelSettings().apply(request.settings, settings);
+    if (settings.frames && examples < 2)
+      throw InputError("`frames`: give the frames of an example, several files");
+    if (settings.options.loop && !settings.frames)
+      throw InputError("`loop`: only what changes over time does; say how many `frames`");
+    checkMethod(request.settings, settings);
+    checkTexts(settings);
+    if (request.extent.size) {
+      for (const Pin& pin : request.decided.pins)
+        for (int axis = 0; axis < 3; ++axis)
+          if (pin.cell[axis] < 0 || pin.cell[axis] >= (*request.extent.size)[axis])
+            throw InputError("`pin` " + std::to_string(pin.cell.x) + "," +
+                             std::to_string(pin.cell.y) + "," + std::to_string(pin.cell.z) +
+                             ": is outside of the result, which has " +
+                             readableSize(*request.extent.size, "cells"));
+    }
+  }
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {
     ModelSettings settings;
     modelSettings().apply(request.settings, settings);
-    if (settings.frames && examples.size() < 2)
-      throw InputError("`frames`: give the frames of an example, several files");
-    if (settings.options.loop && !settings.frames)
-      throw InputError("`loop`: only what changes over time does; say how many `frames`");
     const ModelOptions options = modelOptions(request, settings, examples.front());
-    checkMethod(request.settings, settings);
     const Adjacency adjacency = adjacencyOf(examples, adjacencyOptions(settings));
     std::vector<LabelGrid> grids;
     for (const Example& example : examples) grids.push_back(example.labels());

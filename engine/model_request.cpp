@@ -7,7 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "core/cells.h"
 #include "core/error.h"
@@ -31,18 +33,23 @@ SettingTable<O>::Row textsRow(std::string key, std::vector<std::string> O::*memb
           [member](const Setting&, const std::string& text, O& o) { (o.*member).push_back(text); }};
 }
 
+/// "SIDE=RULE": the side, none for all, and the rule.
+std::pair<std::optional<Side>, std::string> sideAndRule(const std::string& text) {
+  static const std::map<std::string, Side> names{{"left", Side::MinX},   {"right", Side::MaxX},
+                                                 {"front", Side::MinY},  {"back", Side::MaxY},
+                                                 {"bottom", Side::MinZ}, {"top", Side::MaxZ}};
+  const auto [name, rule] =
+      keyAndValue(text, "`side`", "SIDE=free, SIDE=example or SIDE=LABEL,...");
+  if (name == "all") return {std::nullopt, rule};
+  const auto side = names.find(name);
+  if (side == names.end())
+    throw InputError("`side` " + text + ": expected left, right, front, back, bottom, top or all");
+  return {side->second, rule};
+}
+
 void readSides(const std::vector<std::string>& texts, const LabelGrid& grid, ModelOptions& model) {
-  const std::map<std::string, Side> names{{"left", Side::MinX},   {"right", Side::MaxX},
-                                          {"front", Side::MinY},  {"back", Side::MaxY},
-                                          {"bottom", Side::MinZ}, {"top", Side::MaxZ}};
   for (const std::string& text : texts) {
-    const auto [name, rule] =
-        keyAndValue(text, "`side`", "SIDE=free, SIDE=example or SIDE=LABEL,...");
-    const auto side = names.find(name);
-    if (side == names.end() && name != "all") {
-      throw InputError("`side` " + text +
-                       ": expected left, right, front, back, bottom, top or all");
-    }
+    const auto [side, rule] = sideAndRule(text);
     SideRule parsed;
     if (rule == "free") {
       parsed.kind = SideRule::Kind::Free;
@@ -51,9 +58,33 @@ void readSides(const std::vector<std::string>& texts, const LabelGrid& grid, Mod
       parsed.labels = parseLabels(rule, grid, "`side` " + text);
     }
     for (int s = 0; s < 6; ++s) {
-      if (side == names.end() || static_cast<int>(side->second) == s) model.sides[s] = parsed;
+      if (!side || static_cast<int>(*side) == s) model.sides[s] = parsed;
     }
   }
+}
+
+/// "LABEL,...=NUMBER": the labels and their weight.
+std::pair<std::string, double> labelsAndWeight(const std::string& text) {
+  const auto [labels, value] = keyAndValue(text, "`weight`", "LABEL,...=NUMBER");
+  const double weight = parseNumber(value, "`weight` " + text);
+  if (weight < 0) throw InputError("`weight` " + text + ": a weight is 0 or more");
+  return {labels, weight};
+}
+std::pair<std::string, std::string> labelsAndMap(const std::string& text) {
+  return keyAndValue(text, "`weight-map`", "LABEL,...=PICTURE.png");
+}
+
+/// "LABEL,...=LEAST..MOST": the labels, and a limit without them.
+std::pair<std::string, CountLimit> labelsAndCount(const std::string& text) {
+  const std::string what = "`count` " + text;
+  const auto [labels, range] = keyAndValue(text, "`count`", "LABEL,...=LEAST..MOST");
+  const std::size_t dots = range.find("..");
+  CountLimit limit;
+  const std::string least = range.substr(0, dots);
+  if (!least.empty()) limit.least = wholeNumber(parseNumber(least, what), what);
+  const std::string most = dots == std::string::npos ? least : range.substr(dots + 2);
+  if (!most.empty()) limit.most = wholeNumber(parseNumber(most, what), what);
+  return {labels, limit};
 }
 
 /// Adds what labels become, "LABEL=LABEL", to a table of a symmetry. A mirror image's image is the
@@ -127,15 +158,13 @@ Array3D<float> readMap(const std::string& path, const Vec3i& size, const std::st
 
 void readWeights(const ModelSettings& settings, const LabelGrid& grid, ModelOptions& model) {
   for (const std::string& text : settings.weight) {
-    const auto [labels, value] = keyAndValue(text, "`weight`", "LABEL,...=NUMBER");
-    const double weight = parseNumber(value, "`weight` " + text);
-    if (weight < 0) throw InputError("`weight` " + text + ": a weight is 0 or more");
+    const auto [labels, weight] = labelsAndWeight(text);
     if (model.weights.empty()) model.weights.assign(grid.labels.size(), 1.0);
     for (const Label label : parseLabels(labels, grid, "`weight` " + text))
       model.weights[label] = weight;
   }
   for (const std::string& text : settings.weightMap) {
-    const auto [labels, path] = keyAndValue(text, "`weight-map`", "LABEL,...=PICTURE.png");
+    const auto [labels, path] = labelsAndMap(text);
     model.weightMaps.push_back({parseLabels(labels, grid, "`weight-map` " + text),
                                 readMap(path, model.size, "`weight-map`")});
   }
@@ -152,15 +181,9 @@ void readMask(const std::string& path, ModelOptions& model) {
 
 void readLimits(const ModelSettings& settings, const LabelGrid& grid, ModelOptions& model) {
   for (const std::string& text : settings.count) {
-    const std::string what = "`count` " + text;
-    const auto [labels, range] = keyAndValue(text, "`count`", "LABEL,...=LEAST..MOST");
-    const std::size_t dots = range.find("..");
-    CountLimit& limit = model.counts.emplace_back();
-    limit.labels = parseLabels(labels, grid, what);
-    const std::string least = range.substr(0, dots);
-    if (!least.empty()) limit.least = wholeNumber(parseNumber(least, what), what);
-    const std::string most = dots == std::string::npos ? least : range.substr(dots + 2);
-    if (!most.empty()) limit.most = wholeNumber(parseNumber(most, what), what);
+    auto [labels, limit] = labelsAndCount(text);
+    limit.labels = parseLabels(labels, grid, "`count` " + text);
+    model.counts.push_back(std::move(limit));
   }
   for (const std::string& text : settings.connect)
     model.connected.push_back(parseLabels(text, grid, "`connect`"));
@@ -179,7 +202,6 @@ void usualSides(const Example& example, ModelOptions& model) {
 }
 
 void readSymmetry(const ModelSettings& settings, const Example& example, ModelOptions& model) {
-  if (settings.mirror.z) throw InputError("`mirror`: expected x, y or xy");
   model.symmetry.mirrorX = settings.mirror.x;
   model.symmetry.mirrorY = settings.mirror.y;
   if (const auto* pieces = std::get_if<ModelPieces>(&example.content)) {
@@ -268,6 +290,21 @@ const SettingTable<ModelSettings>& modelSettings() {
           "loop", [](O & o) -> auto& { return o.options.loop; },
           "the last frame is followed by the first")};
   return table;
+}
+
+void checkTexts(const ModelSettings& settings) {
+  if (settings.mirror.z) throw InputError("`mirror`: expected x, y or xy");
+  for (const std::string& text : settings.side) sideAndRule(text);
+  for (const std::string& text : settings.weight) labelsAndWeight(text);
+  for (const std::string& text : settings.weightMap)
+    requireThere(Source(labelsAndMap(text).second));
+  for (const std::string& text : settings.count) labelsAndCount(text);
+  if (!settings.mask.empty()) requireThere(Source(settings.mask));
+  for (const auto& [texts, what] : {std::pair{&settings.mirroredX, "`mirrored-x`"},
+                                    {&settings.mirroredY, "`mirrored-y`"},
+                                    {&settings.turned, "`turned`"}})
+    for (const std::string& text : *texts) keyAndValue(text, what, "LABEL=LABEL");
+  adjacencyOptions(settings);
 }
 
 std::vector<Label> parseLabels(const std::string& text, const LabelGrid& grid,

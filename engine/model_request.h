@@ -24,6 +24,9 @@ struct ModelSettings {
   std::string mask;
 };
 const SettingTable<ModelSettings>& modelSettings();
+/// Throws `InputError` for what cannot be read whatever labels the example has, and for files that
+/// are not there.
+void checkTexts(const ModelSettings& settings);
 
 /// "3,wall,7": numbers or names of labels; a name may stand for several. Throws `InputError` naming
 /// `what` and which labels there are.

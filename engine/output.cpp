@@ -118,17 +118,17 @@ void requireOutput(const fs::path& path, const std::string& endings) {
   const OutputFile probe(path);
 }
 
-void requireOutputFits(const fs::path& path, Form form, const Vec3i& size, int frames,
-                       bool instances) {
-  if (form == Form::Field) return;
+void requireOutputKind(const fs::path& path, bool hasFrames, bool instances) {
   if (instances && !endsWith(path, ".glb"))
     throw InputError("`instances`: only a .glb has instances, not " + path.string());
-  if (endsWith(path, ".gif") && frames == 0) {
+  if (endsWith(path, ".gif") && !hasFrames) {
     throw InputError(path.string() +
-                     ": only what changes over time becomes one; say how many "
-                     "`frames`");
+                     ": only what changes over time becomes one; say how many `frames`");
   }
-  if (endsWith(path, ".png") && size.z != 1) {
+}
+
+void requireOutputFits(const fs::path& path, Form form, const Vec3i& size) {
+  if (form == Form::Labels && endsWith(path, ".png") && size.z != 1) {
     throw InputError(path.string() + ": a picture has one layer, and the result " +
                      std::to_string(size.z) + "; write a .txt, .vox, .vdb or a mesh");
   }

@@ -30,10 +30,10 @@ inline constexpr const char* kLabelOutputEndings =
 /// Refuses an output whose ending is none of `endings` (".obj .ply"), or whose folder does not
 /// exist or cannot be written, before any work is done.
 void requireOutput(const std::filesystem::path& path, const std::string& endings);
-/// Refuses an output that cannot hold a result of `size` (a picture has one layer) and of so many
-/// frames, 0 for one that does not change over time.
-void requireOutputFits(const std::filesystem::path& path, Form form, const Vec3i& size, int frames,
-                       bool instances);
+/// Refuses an output that cannot hold instances, or that needs frames where the result has none.
+void requireOutputKind(const std::filesystem::path& path, bool hasFrames, bool instances);
+/// Refuses an output that cannot hold a result of `size`: a picture has one layer.
+void requireOutputFits(const std::filesystem::path& path, Form form, const Vec3i& size);
 
 struct OutputOptions {
   MeshFileOptions mesh;

@@ -83,12 +83,16 @@ const SettingTable<SurfaceOptions>& surfaceSettings(Form form) {
   return form == Form::Field ? field : labels;
 }
 
-void requireSurface(const SurfaceOptions& options, std::span<const Example> examples) {
+void requireSurface(const SurfaceOptions& options, std::size_t examples) {
   if (options.surface == SurfaceKind::Contour) return;
   if (options.simplify > 0 || options.triangles > 0)
     throw InputError("`simplify`, `triangles`: only a contour is simplified, not copied triangles");
-  if (examples.size() > 1)
-    throw InputError("`surface` copy: there are several examples; use contour");
+  if (examples > 1) throw InputError("`surface` copy: there are several examples; use contour");
+}
+
+void requireSurface(const SurfaceOptions& options, std::span<const Example> examples) {
+  requireSurface(options, examples.size());
+  if (options.surface == SurfaceKind::Contour) return;
   if (!examples.front().mesh)
     throw InputError("`surface` copy: the example has no triangles to copy; use contour");
 }

@@ -31,7 +31,9 @@ struct SurfaceOptions {
 /// The settings that fill `SurfaceOptions`, for results of a form.
 const SettingTable<SurfaceOptions>& surfaceSettings(Form form);
 
-/// Throws `InputError` where results of these examples cannot have such a surface.
+/// Throws `InputError` where results of so many examples cannot have such a surface, and where
+/// results of these cannot.
+void requireSurface(const SurfaceOptions& options, std::size_t examples);
 void requireSurface(const SurfaceOptions& options, std::span<const Example> examples);
 
 struct Surface {

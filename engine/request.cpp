@@ -23,7 +23,7 @@ const SettingTable<O>& valueTable() {
       settingRow<O>("size", [](O & o) -> auto& { return o.extent.size; },
                     "the result's size in samples, or cells of labels, in place of `scale`",
                     {1, 32767}),
-      settingRow<O>("seed", &O::seed, "another seed, another result"),
+      settingRow<O>("seed", &O::seed, "another seed, another result", kFromZero),
       settingRow<O>(
           "periodic", &O::periodic,
           "axes along which copies of the result tile; its surface is left open there, so "

@@ -155,8 +155,7 @@ std::int64_t readInteger(const Setting& setting, const std::string& text) {
     // Seeds may be any 64 bits.
     std::uint64_t bits = 0;
     const auto [last, wrong] = std::from_chars(text.data(), text.data() + text.size(), bits);
-    if (wrong == std::errc{} && last == text.data() + text.size() &&
-        !std::isfinite(setting.least) && !std::isfinite(setting.most))
+    if (wrong == std::errc{} && last == text.data() + text.size() && !std::isfinite(setting.most))
       return static_cast<std::int64_t>(bits);
     throw InputError(named(setting, text) + ": expected " + readableRange(setting));
   }

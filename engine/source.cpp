@@ -59,6 +59,19 @@ SourceKind sourceKind(const Source& source) {
   throw InputError(source.name() + ": not a kind of example; use " + kExampleEndings);
 }
 
+void requireThere(const Source& source) {
+  if (!isFile(source) || source.inMemory<std::string>()) return;
+  std::error_code error;
+  if (std::filesystem::is_directory(source.path(), error))
+    throw InputError(source.name() + ": is a folder, not a file");
+  // Bundled scenes are found by their names.
+  if (lowerExtension(source.path()) == ".toml") {
+    findScene(source.name());
+  } else if (!std::filesystem::exists(source.path(), error)) {
+    throw InputError(source.name() + ": no such file");
+  }
+}
+
 TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
                            const Progress& progress) {
   if (!isFile(source)) return held<TriangleMesh>(source, "triangles");

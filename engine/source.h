@@ -80,6 +80,9 @@ enum class SourceKind {
 /// where it is no kind of example, or cannot be read.
 SourceKind sourceKind(const Source& source);
 
+/// Throws `InputError` where the source is a file that is not there, or is a folder.
+void requireThere(const Source& source);
+
 /// The endings of examples, for help and errors.
 inline constexpr const char* kExampleEndings =
     ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .txt .vox .jpg or .toml";
