@@ -22,7 +22,11 @@ class Turn {
   const Vec3d& about() const { return about_; }
   Turn back() const { return {-angle_, about_}; }
 
-  Vec3d operator()(const Vec3d& p) const { return none() ? p : about_ + direction(p - about_); }
+  Vec3d operator()(const Vec3d& p) const {
+    if (none()) return p;
+    const Vec3d d = direction(p - about_);
+    return {about_.x + d.x, about_.y + d.y, p.z};
+  }
   Vec3d direction(const Vec3d& d) const {
     return {cos_ * d.x - sin_ * d.y, sin_ * d.x + cos_ * d.y, d.z};
   }

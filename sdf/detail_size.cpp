@@ -194,7 +194,9 @@ DetailSize detailSize(const TriangleMesh& mesh, const Progress& progress) {
   const double scale = std::max({size.x, size.y, size.z}) / kSide;
   if (!(scale > 0)) return {kInfinity, kInfinity};
   const TriangleSoup soup = makeSoup(mesh, box.center(), scale, progress.part(0, 0.3));
-  const auto tree = std::make_shared<const TriangleTree>(cornersOf(soup), progress);
+  const auto tree = std::make_shared<const TriangleTree>(
+      cornersOf(soup), progress,
+      soup.closed ? TriangleTree::For::Distances : TriangleTree::For::Everything);
   if (tree->count() == 0) return {kInfinity, kInfinity};
   const SolidTest solid(soup, tree, progress);
   const Device device(soup);

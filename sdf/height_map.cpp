@@ -9,9 +9,9 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/loop_progress.h"
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "core/loop_progress.h"
 #include "sdf/sample_distances.h"
 
 namespace exemplar {

@@ -113,25 +113,11 @@ std::vector<Corners> withoutCuts(std::vector<Corners> triangles, const Frame& fr
   return triangles;
 }
 
-// Sets `inside` for a block of samples, at most 4 a side, that are at low + ijk.
-template <class Test>
-void askAll(const Test& test, const Vec3i& low, const Vec3i& first, const Vec3i& end,
-            Array3D<std::uint8_t>& inside) {
-  std::array<Vec3d, 64> points;
-  std::array<std::uint8_t, 64> in;
-  std::size_t count = 0;
-  serpentine(first, end, [&](const Vec3i& ijk) { points[count++] = cast<double>(low + ijk); });
-  test.inside({points.data(), count}, {in.data(), count});
-  count = 0;
-  serpentine(first, end, [&](const Vec3i& ijk) { inside[ijk] = in[count++]; });
-}
-
 // Sets `inside` from a test whose answer only changes across the surface that `distances` (exact
 // up to 2 voxels) are measured from. The test is slow, so few samples of each block are tested: one
 // of each set that is connected by steps that nothing crosses, the farthest from the surface.
-template <class Test>
-void spreadSigns(const Test& test, const Array3D<float>& distances, Array3D<std::uint8_t>& inside,
-                 const Progress& progress) {
+void spreadSigns(const ParityTest& test, const Array3D<float>& distances,
+                 Array3D<std::uint8_t>& inside, const Progress& progress) {
   // A surface that crosses the step from one sample to the next is as near to both together as
   // the step is long. Half a voxel on top covers what cutting crossing triangles into pieces may
   // have lost.
@@ -192,8 +178,7 @@ void measureOpen(const SolidTest& solid, std::vector<Corners> triangles, bool fi
   const Vec3i low{-pad, -pad, -pad};
   const Vec3i size = distances.size() - low * 2;
   Array3D<std::uint8_t> in(size);
-  forBlocks(size, 4, progress.part(0, 0.4), "finding signs",
-            [&](const Vec3i& first, const Vec3i& end) { askAll(solid, low, first, end, in); });
+  solid.mark(low, in, progress.part(0, 0.4));
   {
     Array3D<float> near(size);
     sampleDistances(TriangleTree(triangles, progress, TriangleTree::For::Distances), 2, low, near,
@@ -223,7 +208,10 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
   Array3D<std::uint8_t> inside(frame.size);
   const double limit = std::max(options.halfWidth, 2.0);  // signs look 2 voxels far
   progress.report("finding the surface", 0.1);
-  const auto tree = std::make_shared<const TriangleTree>(cornersOf(soup), progress);
+  // What is closed needs no winding numbers.
+  const auto tree = std::make_shared<const TriangleTree>(
+      cornersOf(soup), progress,
+      soup.closed ? TriangleTree::For::Distances : TriangleTree::For::Everything);
   if (source == SignSource::WindingNumber) {
     const SolidTest solid(soup, tree, progress);
     BoundingSurface surface =
@@ -241,7 +229,7 @@ DistanceField meshToSdf(const TriangleMesh& mesh, const MeshToSdfOptions& option
         measure(TriangleTree(std::move(bounding), progress, TriangleTree::For::Distances), limit,
                 distances, progress.part(0.4, 0.9));
       }
-      spreadSigns(solid, distances, inside, progress.part(0.9, 1));
+      solid.mark({}, inside, progress.part(0.9, 1));
     }
   } else {
     if (source == SignSource::Flood) {

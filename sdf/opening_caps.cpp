@@ -7,8 +7,8 @@
 #include <array>
 #include <span>
 
-#include "core/parallel.h"
 #include "core/loop_progress.h"
+#include "core/parallel.h"
 
 namespace exemplar {
 namespace {
@@ -116,7 +116,8 @@ std::vector<Corners> openingCaps(const SolidTest& solid, const Vec3i& low,
                                  const Progress& progress) {
   const Lattice lattice{inside, distances, cast<double>(low)};
   const std::vector<Key> edges = capEdges(lattice, progress);
-  const std::vector<float> shares = capCrossings(solid, lattice, edges, fine, progress.part(0, 0.8));
+  const std::vector<float> shares =
+      capCrossings(solid, lattice, edges, fine, progress.part(0, 0.8));
 
   // Where the surface crosses an edge of a cell: a cap as found, triangles about where the
   // distances of the ends say.

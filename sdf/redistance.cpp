@@ -12,11 +12,11 @@
 
 #include "core/cells.h"
 #include "core/error.h"
+#include "core/loop_progress.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "sdf/dilate.h"
 #include "sdf/example_surface.h"
-#include "core/loop_progress.h"
 #include "sdf/sample_distances.h"
 
 namespace exemplar {

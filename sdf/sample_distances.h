@@ -6,9 +6,9 @@
 #include <cstddef>
 
 #include "core/array3d.h"
+#include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "core/loop_progress.h"
 #include "sdf/triangle_tree.h"
 
 namespace exemplar {

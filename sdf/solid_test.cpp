@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "sdf/row_crossing.h"
+#include "sdf/sample_distances.h"
 #include "sdf/triangle_tree.h"
 
 namespace exemplar {
@@ -97,26 +99,49 @@ SolidTest::SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTre
 
 SolidTest::~SolidTest() = default;
 
+void SolidTest::mark(const Vec3i& low, Array3D<std::uint8_t>& inside,
+                     const Progress& progress) const {
+  std::ranges::fill(inside.values(), std::uint8_t{0});
+  const bool openings = parts_->flat.count() > 0 || !parts_->open.empty();
+  if (parts_->closed)
+    markInside(*parts_->closed, low, inside, progress.part(0, openings ? 0.1 : 1));
+  if (!openings) return;
+  forBlocks(inside.size(), 4, progress.part(parts_->closed ? 0.1 : 0, 1), "finding signs",
+            [&](const Vec3i& first, const Vec3i& end) {
+              std::array<Vec3d, kTogether> points;
+              std::array<std::uint8_t, kTogether> in{};
+              std::size_t count = 0;
+              serpentine(first, end,
+                         [&](const Vec3i& ijk) { points[count++] = cast<double>(low + ijk); });
+              askOpen({points.data(), count}, in.data());
+              count = 0;
+              serpentine(first, end, [&](const Vec3i& ijk) { inside[ijk] |= in[count++]; });
+            });
+}
+
 void SolidTest::inside(std::span<const Vec3d> points, std::span<std::uint8_t> result) const {
-  std::array<double, 64> winding;
-  for (std::size_t begin = 0; begin < points.size(); begin += winding.size()) {
-    const auto some = points.subspan(begin, std::min(winding.size(), points.size() - begin));
-    std::uint8_t* in = result.data() + begin;
-    std::fill_n(in, some.size(), std::uint8_t{0});
-    const auto ask = [&](const TriangleTree& tree, bool eitherWay) {
-      tree.windingNumbers(some, {winding.data(), some.size()});
-      for (std::size_t p = 0; p < some.size(); ++p)
-        in[p] |= (eitherWay ? std::abs(winding[p]) : winding[p]) > 0.5;
-    };
-    if (parts_->closed) ask(*parts_->closed, true);
-    if (parts_->flat.count() > 0) ask(parts_->flat, true);
-    if (parts_->open.empty()) continue;
-    // Outside its convex hull no component winds around a point by more than 1/2.
-    Box3d box;
-    for (const Vec3d& p : some) box.add(p);
-    parts_->boxes.visitBox(box.min, box.max,
-                           [&](std::uint32_t part) { ask(parts_->open[part], false); });
+  for (std::size_t p = 0; p < points.size(); ++p)
+    result[p] = parts_->closed && windingAlongRow(*parts_->closed, points[p]) != 0;
+  for (std::size_t begin = 0; begin < points.size(); begin += kTogether) {
+    const auto some = points.subspan(begin, std::min(kTogether, points.size() - begin));
+    askOpen(some, result.data() + begin);
   }
+}
+
+void SolidTest::askOpen(std::span<const Vec3d> points, std::uint8_t* in) const {
+  std::array<double, kTogether> winding;
+  const auto ask = [&](const TriangleTree& tree, bool eitherWay) {
+    tree.windingNumbers(points, {winding.data(), points.size()});
+    for (std::size_t p = 0; p < points.size(); ++p)
+      in[p] |= (eitherWay ? std::abs(winding[p]) : winding[p]) > 0.5;
+  };
+  if (parts_->flat.count() > 0) ask(parts_->flat, true);
+  if (parts_->open.empty()) return;
+  // Outside its convex hull no component winds around a point by more than 1/2.
+  Box3d box;
+  for (const Vec3d& p : points) box.add(p);
+  parts_->boxes.visitBox(box.min, box.max,
+                         [&](std::uint32_t part) { ask(parts_->open[part], false); });
 }
 
 }  // namespace exemplar

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "core/array3d.h"
 #include "core/progress.h"
 #include "core/vec.h"
 #include "sdf/triangle_soup.h"
@@ -33,8 +34,15 @@ class SolidTest {
   /// Whether each point is inside; fastest for points that are close together. Any number of
   /// threads may ask.
   void inside(std::span<const Vec3d> points, std::span<std::uint8_t> result) const;
+  /// Whether the points low + ijk are; of closed components by their rows alone
+  /// (`sdf/row_crossing.h`). Throws `Cancelled`.
+  void mark(const Vec3i& low, Array3D<std::uint8_t>& inside, const Progress& progress = {}) const;
 
  private:
+  static constexpr std::size_t kTogether = 64;
+  // Sets those of at most `kTogether` points that are inside open components.
+  void askOpen(std::span<const Vec3d> points, std::uint8_t* in) const;
+
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

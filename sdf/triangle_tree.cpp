@@ -19,7 +19,6 @@ constexpr std::uint32_t kLeafTriangles = 4;
 constexpr std::uint32_t kParallelTriangles = 4096;
 // How many times its radius a cluster must be away for its expansion to replace it.
 constexpr double kFar = 2.3;
-constexpr std::size_t kMaxDepth = 64;
 
 Vec3d centroid(const Corners& t) { return (t[0] + t[1] + t[2]) / 3.0; }
 Vec3d areaVector(const Corners& t) { return cross(t[1] - t[0], t[2] - t[0]) * 0.5; }

@@ -67,7 +67,31 @@ class TriangleTree {
   void visitBox(const Vec3d& low, const Vec3d& high,
                 const std::function<void(std::uint32_t)>& visit) const;
 
+  /// Calls `visit` with the corners of all triangles that a line along x from `p` on may meet, and
+  /// of some others.
+  template <class Visit>
+  void visitRow(const Vec3d& p, const Visit& visit) const {
+    if (nodes_.empty()) return;
+    std::array<std::uint32_t, kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const std::uint32_t node = stack[--depth];
+      const Node& n = nodes_[node];
+      if (n.high.x < p.x || n.low.y > p.y || n.high.y < p.y || n.low.z > p.z || n.high.z < p.z)
+        continue;
+      if (n.right == 0) {
+        for (std::uint32_t i = n.first; i < n.first + n.count; ++i) visit(leaves_[i]);
+      } else {
+        stack[depth++] = n.right;
+        stack[depth++] = node + 1;
+      }
+    }
+  }
+
  private:
+  static constexpr std::size_t kMaxDepth = 64;
+
   struct Node {
     Vec3d low, high;          // bounding box
     std::uint32_t first = 0;  // the first triangle in `order_`

@@ -96,11 +96,12 @@ struct Placement {
 Placement placement(const openvdb::GridBase& grid, const CoordBBox& box, bool turns,
                     const fs::path& path) {
   const auto& transform = grid.transform();
-  const auto corner = [&](int x, int y, int z) {
-    return transform.indexToWorld(openvdb::Vec3d(x, y, z));
+  // Differences of positions far from the origin would be less exact.
+  const auto step = [&](int x, int y, int z) {
+    return transform.isLinear() ? transform.baseMap()->applyJacobian(openvdb::Vec3d(x, y, z))
+                                : openvdb::Vec3d(0);
   };
-  const openvdb::Vec3d zero = corner(0, 0, 0), dx = corner(1, 0, 0) - zero,
-                       dy = corner(0, 1, 0) - zero, dz = corner(0, 0, 1) - zero;
+  const openvdb::Vec3d dx = step(1, 0, 0), dy = step(0, 1, 0), dz = step(0, 0, 1);
   const double h = std::hypot(dx[0], dx[1]), tolerance = 1e-5 * std::abs(h);
   const bool turned = turns && !(std::abs(dx[1]) <= tolerance && dx[0] > 0);
   const double c = turned ? dx[0] : h, s = turned ? dx[1] : 0;

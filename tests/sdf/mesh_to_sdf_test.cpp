@@ -328,6 +328,19 @@ TEST(MeshToSdf, FollowsARotationOfTheMesh) {
   }
 }
 
+TEST(MeshToSdf, PadsAndCutsAxisByAxis) {
+  // A wall of 4 by 0.5 by 2, cut across x only; its end is between samples.
+  const TriangleMesh wall = makeBox({{0, 0, 0}, {4.03, 0.5, 2}});
+  const DistanceField field = meshToSdf(wall, {.voxelSize = 0.1,
+                                               .padding = Vec3i{0, 2, 3},
+                                               .halfWidth = kInfinity,
+                                               .cutByBox = {.x = true}});
+  EXPECT_EQ(field.size(), (Vec3i{40, 9, 26}));
+  EXPECT_NEAR(length(field.box().min - Vec3d{0, -0.2, -0.3}), 0, 1e-12);
+  const Shape bar = test::box({{-100, 0, 0}, {100, 0.5, 2}});
+  EXPECT_LT(test::worstError(field, bar), 1e-4);
+}
+
 TEST(MeshToSdf, MeasuresNoDistanceFromWhereTheBoxCutIt) {
   // Ground that fills the box's floor, its sides and bottom closed by the cut; one wall of it is
   // inside the box, and a surface.

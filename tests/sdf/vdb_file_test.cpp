@@ -381,14 +381,53 @@ TEST(VdbFile, RefusesOriginsThatAreNone) {
   EXPECT_THAT(inputError([&] { readOriginsVdb(folder / "bad.vdb"); }), HasSubstr("differ"));
 }
 
+TEST(VdbFile, KeepsHowAFieldLiesTurned) {
+  const TemporaryFolder folder;
+  const DistanceField field = torusField(0.18);
+  const Turn turn(0.7, {448262, 5411932, 30});
+  writeVdb(folder / "turned.vdb", field, {}, turn);
+  Turn found;
+  const DistanceField read = readVdb(folder / "turned.vdb", {.turn = &found});
+  EXPECT_EQ(read.values, field.values);
+  EXPECT_NEAR(read.voxelSize / field.voxelSize, 1, 1e-9);
+  for (const Vec3d& ijk : {Vec3d{0, 0, 0}, Vec3d{7, 3, 5}, Vec3d{20, 1, 9}}) {
+    // Coordinates of millions are exact to 1e-9.
+    EXPECT_LT(length(found(read.position(ijk)) - turn(field.position(ijk))), 1e-7);
+  }
+  // Other programs see it there, too.
+  openvdb::io::File file((folder / "turned.vdb").string());
+  file.open();
+  const auto grid = file.readGrid("surface");
+  const openvdb::Vec3d corner = grid->transform().indexToWorld(openvdb::Vec3d(7, 3, 5));
+  const Vec3d expected = turn(field.position({7, 3, 5}));
+  EXPECT_LT((corner - openvdb::Vec3d(expected.x, expected.y, expected.z)).length(), 1e-7);
+  // Who does not ask gets no field that lies elsewhere.
+  EXPECT_THAT(inputError([&] { readVdb(folder / "turned.vdb"); }), HasSubstr("no axis-aligned"));
+  writeVdb(folder / "straight.vdb", field);
+  found = turn;
+  readVdb(folder / "straight.vdb", {.turn = &found});
+  EXPECT_TRUE(found.none());
+}
+
+TEST(VdbFile, OriginsKnowHowLargeTheResultWasAskedToBe) {
+  const TemporaryFolder folder;
+  const DistanceField field = torusField(0.18);
+  const Origins origins(field.size(), Origin(Vec3i{1, 2, 3}));
+  writeOriginsVdb(folder / "a.vdb", origins, field, {.scale = Vec3d{3, 1, 1.5}});
+  EXPECT_EQ(readOriginsScale(folder / "a.vdb"), (Vec3d{3, 1, 1.5}));
+  writeOriginsVdb(folder / "b.vdb", origins, field);
+  EXPECT_FALSE(readOriginsScale(folder / "b.vdb"));
+}
+
 TEST(VdbFile, ReportsItsProgressAndStopsWhereItIsCancelled) {
   const TemporaryFolder folder;
   const DistanceField field = torusField(0.18);
   const std::filesystem::path path = folder / "field.vdb", origins = folder / "origins.vdb";
-  expectReportsAndStops([&](const Progress& p) { writeVdb(path, field, {}, p); }, 4);
+  expectReportsAndStops([&](const Progress& p) { writeVdb(path, field, {}, {}, p); }, 4);
   expectReportsAndStops([&](const Progress& p) { readVdb(path, {}, nullptr, p); }, 4);
   const Origins from(field.size(), Origin(Vec3i{1, 2, 3}));
-  expectReportsAndStops([&](const Progress& p) { writeOriginsVdb(origins, from, field, p); }, 4);
+  expectReportsAndStops([&](const Progress& p) { writeOriginsVdb(origins, from, field, {}, p); },
+                        4);
   expectReportsAndStops([&](const Progress& p) { readOriginsVdb(origins, p); }, 4);
 }
 
@@ -398,8 +437,8 @@ TEST(VdbFile, ACancelledWriteLeavesWhatWasThere) {
   writeVdb(path, torusField(0.18));
   const std::string before = readFile(path);
   for (std::size_t reports = 0; reports < 4; ++reports) {
-    EXPECT_TRUE(
-        stopsAfter(reports, [&](const Progress& p) { writeVdb(path, torusField(0.15), {}, p); }));
+    EXPECT_TRUE(stopsAfter(
+        reports, [&](const Progress& p) { writeVdb(path, torusField(0.15), {}, {}, p); }));
     EXPECT_EQ(readFile(path), before);
   }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1);
