@@ -99,8 +99,8 @@ double voxelFor(const Vec3d& side, const Padding& padding, int resolution) {
   return voxel;
 }
 
-/// What holds detail: this many voxels through what is thinnest.
-constexpr double kVoxelsOfDetail = 2;
+/// What holds detail: this many voxels through what is thinnest, but for what rounding takes.
+constexpr double kVoxelsOfDetail = 2 * 0.999;
 /// How many samples an example and its result may have together where the resolution follows from
 /// the detail: about 1.5 GB.
 constexpr double kMostSamples = 16e6;
@@ -121,7 +121,7 @@ int affordableResolution(const Example& example, const Vec3d& side, const Paddin
     const double voxel = voxelFor(side, padding, resolution);
     double count = 1, larger = 1;
     for (int axis = 0; axis < 3; ++axis) {
-      const double n = side[axis] / voxel + 2.0 * padding[axis];
+      const double n = std::ceil(side[axis] / voxel - 1e-6) + 2.0 * padding[axis];
       count *= n;
       larger *=
           wanted.size ? (*wanted.size)[axis] : n * wanted.scale.value_or(example.hints.scale)[axis];
@@ -181,13 +181,14 @@ void sayDetail(const DetailSize& detail, const Vec3d& side, const Padding& paddi
   example.warnings.push_back(text);
 }
 
-/// Along which axes a result of these samples becomes longer than the example.
-Axes growing(const Example& example, const Vec3d& side, double voxel) {
+/// Along which axes a result becomes longer than the example with its air.
+Axes growing(const Example& example, const Vec3d& side, double voxel, const Padding& padding) {
   Axes axes;
   if (!example.reading.wanted) return axes;
   const Extent& wanted = *example.reading.wanted;
   for (int axis = 0; axis < 3; ++axis)
-    axes[axis] = wanted.size ? (*wanted.size)[axis] > side[axis] / voxel + 0.5
+    axes[axis] = wanted.size ? (*wanted.size)[axis] >
+                                   std::ceil(side[axis] / voxel - 1e-6) + 2.0 * padding[axis]
                              : wanted.scale.value_or(example.hints.scale)[axis] > 1;
   return axes;
 }
@@ -233,7 +234,7 @@ void sampleMesh(TriangleMesh mesh, Example& example, const Progress& progress) {
     return how;
   };
   Sampling how = sampling({});
-  Axes cut = options.scatter ? Axes{} : growing(example, side, how.voxelSize);
+  Axes cut = options.scatter ? Axes{} : growing(example, side, how.voxelSize, how.padding);
   for (int axis = 0; axis < 3; ++axis)
     cut[axis] = cut[axis] && (!options.padding || (*options.padding)[axis] == 0);
   // Most that can go on do, so that is tried first.

@@ -46,7 +46,7 @@ TEST(RowCrossing, ALineThroughAnEdgeOrACornerCrossesAsManyAsOneBesideIt) {
   const Random random(2);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<Corners> fan;
-    const int n = 3 + static_cast<int>(random.below(6, trial));
+    const int n = 4 + static_cast<int>(random.below(6, trial));
     std::vector<Vec3d> rim;
     for (int k = 0; k < n; ++k) {
       const double angle = 6.283185307179586 * (k + random.uniform(trial, k + 1) * 0.7) / n;
