@@ -46,7 +46,9 @@ bool looksCut(const DistanceField& field, int axis) {
     double goesOn = 0;
     for (int step = 1; step <= 4; ++step) {
       const int in = end + inwards * std::max(step, length * step / 16);
-      goesOn += both(slabs[end], slabs[std::clamp(in, 0, length - 1)]) / solid[end] / 4;
+      const auto inner = static_cast<std::size_t>(std::clamp(in, 0, length - 1));
+      const double less = std::min(solid[end], solid[inner]);
+      if (less > 0) goesOn += both(slabs[end], slabs[inner]) / less / 4;
     }
     if (goesOn < kGoesOn) return false;
   }

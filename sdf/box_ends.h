@@ -12,9 +12,11 @@ namespace exemplar {
 /// column's do not. At both ends
 ///  - the slab of two samples holds at least three fifths of what three quarters of all slabs hold
 ///    at most (round things have little there);
-///  - half of what is solid at the very end is still solid further in, in the mean over the first
-///    quarter of the length (an arm across the end of an L is not);
-/// and of what is solid at one end or the other, at least half is at both. False for fields of
+///  - what is solid at the very end and further in is half the same, in the mean over the first
+///    quarter of the length: half of whichever is less, as of the rails between a fence's posts (a
+///    ring is elsewhere);
+/// and of what is solid at one end or the other, at least half is at both (an L has an arm across
+/// one of them). False for fields of
 /// fewer than four samples along the axis. O(n) for n samples.
 bool looksCut(const DistanceField& field, int axis);
 

@@ -39,6 +39,17 @@ TEST(BoxEnds, OfWallsLookCut) {
   EXPECT_TRUE(goesOn(ground, 1));
 }
 
+TEST(BoxEnds, OfFencesAndArchesLookCut) {
+  // Posts as wide as the fence is high, and rails between them.
+  TriangleMesh fence;
+  for (const double x : {0.0, 1.9, 3.8}) append(fence, makeBox({{x, 0, 0}, {x + 0.2, 0.3, 1.2}}));
+  for (const double z : {0.3, 0.9}) append(fence, makeBox({{0.1, 0.1, z}, {3.9, 0.2, z + 0.15}}));
+  EXPECT_TRUE(goesOn(fence, 0));
+  TriangleMesh arch = makeBox({{0, 0, 1.6}, {4, 0.6, 2}});
+  for (const double x : {0.0, 3.4}) append(arch, makeBox({{x, 0, 0}, {x + 0.6, 0.6, 1.7}}));
+  EXPECT_TRUE(goesOn(arch, 0));
+}
+
 TEST(BoxEnds, OfRoundThingsAndHeapsDoNot) {
   for (const int axis : {0, 1}) {
     EXPECT_FALSE(goesOn(makeSphere({}, 1, 12), axis));
