@@ -114,5 +114,45 @@ TEST(BadCommand, AFullDiskLeavesNoFile) {
   EXPECT_THAT(result.err, HasSubstr("/dev/full"));
 }
 
+TEST(BadInput, OptionsAreCheckedBeforeAFileIsRead) {
+  const TestFolder folder;
+  // None of the files is there; what is wrong with the options is said all the same.
+  for (const auto& [command, says] : std::vector<std::pair<std::string, std::string>>{
+           {"synth no.obj -o o.ply --scale 2x2x1", "--scale 2x2x1"},
+           {"synth no.obj -o o.ply --scale 2 --size 9", "--size and --scale"},
+           {"synth no.obj -o o.ply --padding x", "--padding x"},
+           {"synth no.obj -o o.ply --padding 1,2", "--padding 1,2"},
+           {"synth no.obj -o o.ply --padding 0,4,2000", "--padding 0,4,2000"},
+           {"synth no.obj -o o.ply --scatter --padding 2", "--scatter and --padding"},
+           {"synth no.obj -o o.ply --align left", "--align left"},
+           {"synth no.obj -o o.ply --resolution automatic", "4 to 4096 samples, or auto"},
+           {"synth no.obj -o o.ply --seed -1", "--seed -1"},
+           {"synth no.obj -o o.ply --seed 18446744073709551616", "--seed 18446744073709551616"},
+           {"synth no.obj -o o.ply --guide-weight 2", "--guide-weight"},
+           {"synth no.obj -o o.ply --keep grid.txt", "grid.txt: no such file"},
+           {"synth no.obj -o o.ply --surface copy --triangles 9", "--triangles"},
+           {"synth no.obj -o o.ply --surface copy --with two.obj", "--surface copy"},
+           {"synth no.obj -o o.ply --engine blocks --block 7", "--block 7"},
+           {"synth no.obj -o o.ply --engine model --cell 2 --resolution 9",
+            "--cell and --resolution"},
+           {"synth no.obj -o o.ply --engine model --weight wall=-1", "--weight wall=-1"},
+           {"synth no.obj -o o.ply --engine model --side up=free", "--side up=free"},
+           {"synth no.obj -o o.ply --engine model --count wall=many", "--count wall=many"},
+           {"synth no.obj -o o.ply --engine model --loop", "--loop"},
+           {"synth no.obj -o o.ply --engine model --pin 5,0,0=wall --size 4,4,1", "--pin 5,0,0"},
+           {"synth no.obj -o o.ply --engine model --instances", "--instances"},
+           {"synth no.obj -o o.gif --engine model", "--frames"},
+           {"sdf no.obj -o o.vdb --padding 1,x,2", "--padding 1,x,2"},
+           {"measure no.obj o.obj --scale 2 --origins a.vdb", "--scale"},
+           {"voxelize no.obj -o o.vox --cell 1 --resolution 4", "--cell and --resolution"},
+           {"compare no.obj -o dir --scale q", "--scale q"}}) {
+    const auto result = runExemplar(command, folder.path());
+    EXPECT_EQ(result.status, 2) << command;
+    EXPECT_THAT(result.err, testing::HasSubstr(says)) << command;
+    EXPECT_THAT(result.err, testing::Not(testing::HasSubstr("no.obj: no such file"))) << command;
+  }
+  EXPECT_EQ(folder.files(), "");
+}
+
 }  // namespace
 }  // namespace exemplar
