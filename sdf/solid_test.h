@@ -26,7 +26,9 @@ namespace exemplar {
 /// ones, which enclose nothing alone, count together.
 class SolidTest {
  public:
-  /// `tree` holds the soup's triangles in their order. Throws `Cancelled`.
+  /// `tree` holds the soup's triangles in their order; that of a closed soup needs no winding
+  /// numbers, for closed components are asked by their rows (`sdf/row_crossing.h`). Throws
+  /// `Cancelled`.
   SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTree> tree,
             const Progress& progress = {});
   ~SolidTest();
@@ -34,8 +36,8 @@ class SolidTest {
   /// Whether each point is inside; fastest for points that are close together. Any number of
   /// threads may ask.
   void inside(std::span<const Vec3d> points, std::span<std::uint8_t> result) const;
-  /// Whether the points low + ijk are; of closed components by their rows alone
-  /// (`sdf/row_crossing.h`). Throws `Cancelled`.
+  /// Whether the points low + ijk are, much faster for closed components. Throws
+  /// `Cancelled`.
   void mark(const Vec3i& low, Array3D<std::uint8_t>& inside, const Progress& progress = {}) const;
 
  private:
