@@ -220,7 +220,8 @@ TEST(SynthCommand, SeveralOutputsAreOneRunAndAreCheckedBeforeIt) {
 TEST(SynthCommand, CoarserCopiesAndSourcesAreWrittenBesideTheMesh) {
   const TestFolder folder;
   const auto run =
-      runExemplar("synth " + scene("balls") + kQuick + "-o o.glb --lods 2 --source", folder.path());
+      runExemplar("synth " + scene("balls") + kQuick + "--scale 1,1,1 -o o.glb --lods 2 --source",
+                  folder.path());
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(folder.files(), "o.glb o_lod1.glb o_lod2.glb");
   std::size_t before = 0;
@@ -238,13 +239,14 @@ TEST(SynthCommand, CoarserCopiesAndSourcesAreWrittenBesideTheMesh) {
     for (const char* name : {"_SOURCE_FACE", "_SOURCE_WEIGHTS", "_SOURCE_EXAMPLE"})
       EXPECT_THAT(readFile(folder / file), testing::HasSubstr(name)) << file;
   }
-  const auto ply =
-      runExemplar("synth " + scene("balls") + kQuick + "-o o.ply --source", folder.path());
+  const auto ply = runExemplar(
+      "synth " + scene("balls") + kQuick + "--scale 1,1,1 -o o.ply --source", folder.path());
   EXPECT_THAT(ply.err,
               testing::HasSubstr("o.ply: left out, as this format cannot hold it: sources"));
   // Of the volume, too, and to several files.
   ASSERT_EQ(
-      runExemplar("synth " + scene("balls") + kQuick + "-o v.vdb --origins g.vdb", folder.path())
+      runExemplar("synth " + scene("balls") + kQuick + "--scale 1,1,1 -o v.vdb --origins g.vdb",
+                  folder.path())
           .status,
       0);
   const auto mesh = runExemplar("mesh v.vdb --origins g.vdb --example " + scene("balls") + kQuick +
