@@ -132,20 +132,4 @@ PlaneSets planesIn(const PlaneLattice& lattice, const ExactBox& window) {
   return sets;
 }
 
-double mostVertices(const PlaneSets& planes) {
-  double most = 0;
-  const std::size_t m = planes.normals.size();
-  for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      for (std::size_t k = 0; k < j; ++k) {
-        if (determinant(planes.normals[i], planes.normals[j], planes.normals[k]) == 0) continue;
-        most += static_cast<double>(planes.offsets[i].size()) *
-                static_cast<double>(planes.offsets[j].size()) *
-                static_cast<double>(planes.offsets[k].size());
-      }
-    }
-  }
-  return most;
-}
-
 }  // namespace exemplar::continuous

@@ -52,7 +52,4 @@ Vec3i sizeInSpacings(const PlaneLattice& lattice, const Solids& solids);
 /// are more than `kMostFamilies`.
 PlaneSets planesIn(const PlaneLattice& lattice, const ExactBox& window);
 
-/// The largest number of vertices that planes can have: their triples, those of all families.
-double mostVertices(const PlaneSets& planes);
-
 }  // namespace exemplar::continuous

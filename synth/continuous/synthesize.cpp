@@ -262,8 +262,9 @@ class Synthesis {
     passes.begin(vertices_, 2);
     for (int attempt = 0; attempt < options_.attempts && !options_.blocksOnly; ++attempt) {
       ++s.attempts;
+      const double share = 0.3 / options_.attempts, from = 0.4 + share * attempt;
       const Found found = passes.run(random_.fork(static_cast<std::uint64_t>(attempt)), budget,
-                                     progress.part(0.4, 0.7));
+                                     progress.part(from, from + share));
       s.choices = passes.counts().choices;
       s.failures = passes.counts().failures;
       if (found == Found::Nothing) return explain(puzzle, open, demands);

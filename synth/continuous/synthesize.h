@@ -53,7 +53,7 @@ struct ContinuousOptions {
   std::vector<Thickness> thin;
   /// Whether solids may hang in the air over the ground; by default, where some of the example do.
   std::optional<bool> floating;
-  std::size_t mostVertices = 20'000'000;
+  std::size_t mostVertices = 8'000'000;  ///< about 200 bytes each
 };
 
 struct ContinuousStatistics {

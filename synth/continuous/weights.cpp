@@ -15,6 +15,9 @@ namespace {
 constexpr double kUnseen = 0.5;
 /// Shares near this one and below count less when results are compared: they vary by chance.
 constexpr double kSmallShare = 0.005;
+/// The share of a class that the example's own planes do not show at all (no vertex is in the
+/// middle of a face, say), above which it is held back.
+constexpr double kUnseenShare = 0.02;
 /// Trial results of a round, whose shares are averaged.
 constexpr int kTrials = 2;
 
@@ -67,9 +70,10 @@ Shares sharesOf(std::span<const FigureClass> classes, std::span<const double> co
 double largestFactor(const Shares& shares, const Shares& wanted) {
   double largest = 1;
   for (int c = 0; c < kFigureClasses; ++c) {
-    if (wanted[c] <= 0) continue;
-    const double factor = (shares[c] + kSmallShare) / (wanted[c] + kSmallShare);
-    largest = std::max({largest, factor, 1 / factor});
+    const double share = wanted[c] > 0 ? wanted[c] : kUnseenShare;
+    const double factor = (shares[c] + kSmallShare) / (share + kSmallShare);
+    largest = std::max(largest, factor);
+    if (wanted[c] > 0) largest = std::max(largest, 1 / factor);
   }
   return largest;
 }
@@ -120,9 +124,10 @@ std::vector<double> learnWeights(const Puzzle& puzzle, const Domains& consistent
     // A class that is not there at all counts as a quarter of a vertex.
     const double least = 0.25 / static_cast<double>(vertices.size());
     for (int c = 0; c < kFigureClasses; ++c) {
-      if (wanted[c] <= 0) continue;
-      const double step = std::pow(wanted[c] / std::max(shares[c], least), 0.6);
+      const double share = wanted[c] > 0 ? wanted[c] : kUnseenShare;
+      const double step = std::pow(share / std::max(shares[c], least), 0.6);
       factors[c] *= std::clamp(step, 0.3, 3.0);
+      if (wanted[c] <= 0) factors[c] = std::min(factors[c], 1.0);
     }
     weights = weighted(classes, counts, factors);
   }

@@ -38,7 +38,7 @@ std::vector<FigureClass> classify(const Centrals& centrals, const FigureSet& fig
 Shares sharesOf(std::span<const FigureClass> classes, std::span<const double> counts);
 
 /// The largest factor between two results' shares of a class that both should have; 1 is equal.
-/// Shares below half a percent count less.
+/// Shares below half a percent count less; a class that should not be there, from two percent on.
 double largestFactor(const Shares& shares, const Shares& wanted);
 
 struct LearnOptions {
