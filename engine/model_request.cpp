@@ -219,7 +219,8 @@ const SettingTable<ModelSettings>& modelSettings() {
       settingRow<O>("rounds", [](O & o) -> auto& { return o.options.rounds; },
                     "method blocks: rounds over all blocks", {1, 100}),
       settingRow<O>("patience", [](O & o) -> auto& { return o.options.patience; },
-                    "method auto: large regions in a row that may fail before blocks take over",
+                    "method auto: blocks take over where repairs have taken this many times the "
+                    "work of labeling so far",
                     {0, 1e6}),
       settingRow<O>(
           "metropolis", [](O & o) -> auto& { return o.options.metropolis; },

@@ -165,8 +165,9 @@ BlockPass::Change BlockPass::modify(int block, int round) {
   choice.choose = [&](const Random& random, int c, std::span<const LabelWord> set, int draw) {
     return chooser_.choose(random, c, set, draw, region.placed());
   };
-  RegionEffort effort;  // not more than this: the old labels will do as well
-  effort.exactConflicts = std::min(effort.exactConflicts, problem_.options().budget);
+  // Not more than this: the old labels will do as well. The exact solver, which takes a hundred
+  // times as long as a pass, would set few more of them free.
+  const RegionEffort effort{.passes = 1, .searches = 1, .exactConflicts = 0};
   if (region.relabel(effort, choice, progress_) == Outcome::Complete &&
       accepted(region, block, round)) {
     region.keep(labels_);
