@@ -64,16 +64,27 @@ bool Region::takeBack(std::span<const std::int32_t> cells, std::span<const std::
 template <class Restrict>
 bool Region::begin(const Restrict& restrict, const Progress& progress) {
   deciding_ = spoiled_ = false;
-  catalog_.emplace(part_.network());
+  if (catalog_) {
+    catalog_->restart();
+  } else {
+    catalog_.emplace(part_.network());
+  }
   stepsCounted_ = 0;
   sets_ = LabelSets(network_.labels, static_cast<std::size_t>(count()));
+  // Where the sets of `base` have support, only what the surroundings take away can empty others.
+  const bool everything = count() == network_.cells;
+  bool sound = true;
   for (int i = 0; i < count(); ++i) {
     const auto all = base_[cells()[i]];
-    std::copy(all.begin(), all.end(), sets_[i].begin());
-    restrict(i, sets_[i]);
-    catalog_->setDomain(i, sets_[i]);
+    const auto set = sets_[i];
+    std::copy(all.begin(), all.end(), set.begin());
+    restrict(i, set);
+    catalog_->setDomain(i, set);
+    if (everything || std::equal(all.begin(), all.end(), set.begin())) continue;
+    catalog_->touch(i);
+    sound = sound && !catalog_->empty(i);
   }
-  const bool sound = catalog_->propagateAll(progress);
+  sound = sound && (everything ? catalog_->propagateAll(progress) : catalog_->propagate(progress));
   countSteps();
   if (sound) rememberSets();
   return sound;

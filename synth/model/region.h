@@ -70,7 +70,8 @@ struct RegionChoice {
 /// only.
 class Region {
  public:
-  /// `base` holds the labels that the request leaves each cell. Both must outlive the region.
+  /// `base` holds the labels that the request leaves each cell, arc consistent unless the region
+  /// will be the whole network. Both must outlive the region.
   Region(const LabelNetwork& network, const LabelSets& base);
   Region(const Region&) = delete;
   Region& operator=(const Region&) = delete;

@@ -153,7 +153,8 @@ Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelCh
     done = half;
   }
   statistics.whole = false;
-  return labelInBlocks(problem, base, chooser, std::move(*tiled), statistics,
+  const bool sparse = method == ModelMethod::Auto && problem.options().rounds == 1;
+  return labelInBlocks(problem, base, chooser, std::move(*tiled), sparse, statistics,
                        progress.part(done, 1));
 }
 

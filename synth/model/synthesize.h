@@ -78,7 +78,7 @@ struct ModelOptions {
   LabelChoice choice = LabelChoice::Neighbors;
 
   /// Auto: blocks take over where repairs have taken more than this many times the work of labeling
-  /// the cells so far and a hundred thousand more, >= 0.
+  /// a hundred thousand cells and a quarter of those done so far, >= 0.
   int patience = 3;
   Vec3i block{10, 10, 10};  ///< cells; each component >= 2; blocks overlap by half
   int rounds = 1;           ///< over all blocks, 1..100

@@ -30,9 +30,11 @@ constexpr std::int64_t kRegionConflicts = 5000;
 /// solver, which learns from conflicts, is sooner done.
 constexpr std::size_t kMostSearched = 4000;
 constexpr std::int64_t kSearchConflicts = 300;
-/// What labeling a cell takes, in steps of `Catalog::steps`; and for how many cells beside those
-/// labeled so far repairs may take as much.
-constexpr std::int64_t kStepsPerCell = 5, kCellsAtFirst = 100'000;
+/// What labeling a cell takes, and where it goes well at most, in steps of `Catalog::steps`; for
+/// how many cells repairs may take as much at once; and the share of the cells labeled so far for
+/// which they may, too.
+constexpr std::int64_t kStepsPerCell = 5, kMostStepsPerCell = 10, kCellsAtFirst = 100'000,
+                       kShare = 4;
 /// So many repairs near each other in a row before the next one begins with a larger region.
 constexpr int kRepairsInPlace = 3;
 
@@ -57,8 +59,11 @@ class WholePass {
   /// What repairs may still take where `cell` is the next to be labeled.
   std::int64_t workLeft(int cell) const {
     if (!patience_) return RegionEffort::kNoLimit;
-    const std::int64_t spent = region_ ? region_->counts().work : 0;
-    return *patience_ * kStepsPerCell * (kCellsAtFirst + cell) - spent;
+    const std::int64_t cells = cell;
+    const std::int64_t beyond = catalog_.steps() - kMostStepsPerCell * cells;
+    const std::int64_t spent =
+        (region_ ? region_->counts().work : 0) + std::max<std::int64_t>(0, beyond);
+    return *patience_ * kStepsPerCell * (kCellsAtFirst + cell / kShare) - spent;
   }
   Outcome repair(int cell);
   Outcome repairWithin(int cell, int reach);
@@ -171,7 +176,10 @@ Labeling WholePass::run() {
       return chooser_.choose(chooser_.numbersForPass(), cell, set, draw, placed);
     };
     const std::int32_t one[1] = {c};
-    if (labelInOrder(catalog_, one, choose, statistics_.contradictions, progress_)) continue;
+    if (labelInOrder(catalog_, one, choose, statistics_.contradictions, progress_)) {
+      if (c % 64 != 0 || workLeft(c) > 0) continue;
+      return result;
+    }
     const Outcome outcome = repair(c);
     if (outcome != Outcome::Complete) {
       result.outcome = outcome;
