@@ -174,6 +174,11 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
   const bool possible = makeArcConsistent(problem.network(), base, progress);
   Labeling labeling{Outcome::Impossible, {}};
   if (possible) {
+    if (const auto why = impossibleLimit(problem, base)) {
+      result.outcome = Outcome::Impossible;
+      result.conflict.text = *why;
+      return result;
+    }
     progress.report("counting neighbors in the example", 0.08);
     const LabelChooser chooser(problem, examples, progress);
     labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, 0.85));
