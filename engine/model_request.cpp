@@ -169,6 +169,12 @@ void readLimits(const ModelSettings& settings, const LabelGrid& grid, ModelOptio
 /// Where a result may end: a picture, and a field cut by its box, are windows into something
 /// larger.
 void usualSides(const Example& example, ModelOptions& model) {
+  const Axes& periodic = example.reading.image.periodic;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!periodic[axis]) continue;
+    for (const int side : {2 * axis, 2 * axis + 1})
+      model.sides[side] = SideRule{SideRule::Kind::Free, {}};
+  }
   if (std::holds_alternative<ImageLabels>(example.content))
     model.sides.fill(SideRule{SideRule::Kind::Free, {}});
   if (const auto* labeled = std::get_if<LabeledField>(&example.content)) {
@@ -387,7 +393,11 @@ Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions&
   }
   std::vector<LabelGrid> grids;
   for (const Example& example : examples) grids.push_back(example.labels());
-  return findAdjacency(grids, options);
+  AdjacencyOptions all = options;
+  all.periodic = examples.front().reading.image.periodic;
+  if (const auto* image = std::get_if<ImageLabels>(&examples.front().content))
+    return imageAdjacency(grids, *image, all);
+  return findAdjacency(grids, all);
 }
 
 Vec3i cellsOfExample(const Example& example) {

@@ -30,6 +30,9 @@ constexpr std::int64_t kRegionConflicts = 5000;
 /// solver, which learns from conflicts, is sooner done.
 constexpr std::size_t kMostSearched = 4000;
 constexpr std::int64_t kSearchConflicts = 300;
+/// Blocks seldom make more than what they began with of a flat picture whose lines all go on:
+/// there the whole is worth a second or two.
+constexpr std::int64_t kCellsAtFirstFlat = 2'000'000;
 /// What labeling a cell takes, and where it goes well at most, in steps of `Catalog::steps`; for
 /// how many cells repairs may take as much at once; and the share of the cells labeled so far for
 /// which they may, too.
@@ -60,10 +63,11 @@ class WholePass {
   std::int64_t workLeft(int cell) const {
     if (!patience_) return RegionEffort::kNoLimit;
     const std::int64_t cells = cell;
+    const std::int64_t atFirst = problem_.options().size.z == 1 ? kCellsAtFirstFlat : kCellsAtFirst;
     const std::int64_t beyond = catalog_.steps() - kMostStepsPerCell * cells;
     const std::int64_t spent =
         (region_ ? region_->counts().work : 0) + std::max<std::int64_t>(0, beyond);
-    return *patience_ * kStepsPerCell * (kCellsAtFirst + cell / kShare) - spent;
+    return *patience_ * kStepsPerCell * (atFirst + cell / kShare) - spent;
   }
   Outcome repair(int cell);
   Outcome repairWithin(int cell, int reach);
