@@ -250,13 +250,13 @@ TEST_F(LabelCommand, APeriodicPictureIsThePeriod) {
   ASSERT_EQ(out.width, 24);
   ASSERT_EQ(out.height, 16);
   const auto windows = [](const Image8& image) {
-    std::set<std::vector<std::uint8_t>> all;
+    std::set<std::string> all;
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
-        std::vector<std::uint8_t> window;
+        std::string window;
         for (int n = 0; n < 9; ++n) {
           const auto* p = image.at((x + n % 3) % image.width, (y + n / 3) % image.height);
-          window.insert(window.end(), p, p + 3);
+          for (int k = 0; k < 3; ++k) window.push_back(static_cast<char>(p[k]));
         }
         all.insert(std::move(window));
       }
@@ -275,8 +275,11 @@ TEST_F(LabelCommand, APeriodicPictureIsThePeriod) {
 
 TEST_F(LabelCommand, OptionsTakeSeveralValues) {
   const CommandResult result =
-      run("synth --pin 1,1,0=1 3,3,0=1 rings.txt -o out.txt --size 9,9,3 -q --weight 1=2 2=1");
-  EXPECT_EQ(result.status, 0) << result.err;
+      run("synth --pin 3,3,0=5 3,3,1=9 rings.txt -o out.txt --size 9,9,3 -q --weight 1=2 2=1");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Grid grid = readGrid(folder_ / "out.txt");
+  EXPECT_EQ(grid.at(3, 3, 0), 5);
+  EXPECT_EQ(grid.at(3, 3, 1), 9);
 }
 
 TEST_F(LabelCommand, FramesOfAnExampleBecomeFramesOfAResult) {
