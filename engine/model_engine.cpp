@@ -24,7 +24,7 @@ Conflict conflictOf(const ModelConflict& found) {
   return conflict;
 }
 
-/// What a symmetry takes for granted of labels whose images nobody has told.
+/// What a symmetry takes for granted of labels whose images nobody has said.
 std::string imagesTaken(const Settings& given, const ModelSettings& settings,
                         const Example& example) {
   if (std::holds_alternative<ModelPieces>(example.content)) return {};
