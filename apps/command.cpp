@@ -27,11 +27,13 @@ std::string helpOf(const Setting& setting) {
     text += ", in " + setting.unit;
   }
   if (!usual.empty()) text += " (" + usual + ")";
+  if (setting.repeats) text += " (one or more)";
   return spelledAsOptions(text);
 }
 
 std::string valueOf(const Setting& setting) {
-  if (setting.type != SettingType::Choice) return std::string(typeName(setting.type));
+  if (setting.type != SettingType::Choice)
+    return std::string(typeName(setting.type)) + (setting.repeats ? " ..." : "");
   std::string names;
   for (const std::string& choice : setting.choices) names += (names.empty() ? "" : "|") + choice;
   return names;

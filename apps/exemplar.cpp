@@ -7,16 +7,22 @@
 // 4 interrupted. Every failure is one line on stderr.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <new>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/command.h"
 #include "apps/terminal.h"
 #include "core/error.h"
+#include "engine/engine.h"
+#include "engine/request.h"
 
 namespace {
 
@@ -44,6 +50,40 @@ int run(const exemplar::Command& command) {
   }
 }
 
+/// Whether a word after an option's value is one more value of it: numbers with commas, or
+/// KEY=VALUE, that no file is named like.
+bool goesOn(const std::string& word) {
+  const bool numbers =
+      word.find(',') != word.npos && word.find_first_not_of("0123456789.,-") == word.npos;
+  const bool pair = word.front() != '-' && word.find('=') != word.npos;
+  std::error_code error;
+  return (numbers || pair) && !std::filesystem::exists(word, error);
+}
+
+/// The command's words, with an option that may be repeated once before each of its values:
+/// "--pin A B" is "--pin A --pin B".
+std::vector<std::string> spelledOut(std::span<char*> words) {
+  std::set<std::string> repeated;
+  const auto note = [&](std::span<const exemplar::Setting> settings) {
+    for (const exemplar::Setting& setting : settings)
+      if (setting.repeats) repeated.insert("--" + setting.key);
+  };
+  note(exemplar::requestSettings());
+  for (const exemplar::Engine* engine : exemplar::engines()) note(engine->settings());
+  std::vector<std::string> all;
+  for (std::size_t w = 1; w < words.size(); ++w) {
+    all.emplace_back(words[w]);
+    if (!repeated.contains(all.back()) || w + 1 == words.size()) continue;
+    const std::string option = all.back();
+    all.emplace_back(words[++w]);
+    for (; w + 1 < words.size() && goesOn(words[w + 1]); ++w) {
+      all.push_back(option);
+      all.emplace_back(words[w + 1]);
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -63,7 +103,10 @@ int main(int argc, char** argv) {
       addMeasureCommand(app), addSceneCommand(app),  addVoxelizeCommand(app), addInfoCommand(app),
       addCompareCommand(app), addEnginesCommand(app)};
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> words =
+        spelledOut(std::span<char*>(argv, static_cast<std::size_t>(argc)));
+    std::reverse(words.begin(), words.end());  // as CLI11 wants them
+    app.parse(std::move(words));
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {

@@ -92,6 +92,9 @@ void warnOfUnused(Example& example) {
   use("unit", o.unit.has_value(), polygons && kind == SourceKind::Mesh);
   use("snap", o.snap != usual.snap, polygons && kind == SourceKind::Mesh);
   use("ground", o.ground.has_value(), polygons && kind == SourceKind::Mesh);
+  use("seen-only", o.image.seen, picture && o.image.overlap);
+  use("example-periodic", o.image.periodic.any(),
+      labels && !std::holds_alternative<LabeledField>(example.content));
   const bool blocks = std::holds_alternative<LabeledField>(example.content);
   use("field-block", o.blocks.block != usual.blocks.block, blocks);
   use("field-tolerance", o.blocks.tolerance != usual.blocks.tolerance, blocks);
@@ -179,7 +182,14 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
           "side of what is one label in a picture", {1, 256}, "pixels"),
       settingRow<O>(
           "overlap", [](O& o) -> bool& { return o.image.overlap; },
-          "let a picture's pieces begin at every pixel"),
+          "let a picture's pieces begin at every pixel; those are neighbors that agree in the "
+          "pixels they share"),
+      settingRow<O>(
+          "seen-only", [](O& o) -> bool& { return o.image.seen; },
+          "pieces that overlap are neighbors only where the picture shows them so"),
+      settingRow<O>(
+          "example-periodic", [](O& o) -> Axes& { return o.image.periodic; },
+          "axes along which the example goes on from its end with its beginning"),
       settingRow<O>(
           "field-block", [](O& o) -> Vec3i& { return o.blocks.block; },
           "side of what is one label in a distance field (of a mesh without `cell`, a "

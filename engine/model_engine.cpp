@@ -4,7 +4,9 @@
 // Model synthesis: from labels to labels.
 
 #include <cstdio>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "engine/engines.h"
@@ -22,6 +24,23 @@ Conflict conflictOf(const ModelConflict& found) {
   for (const Side side : found.sides)
     conflict.sides.emplace_back(kSideNames[static_cast<int>(side)]);
   return conflict;
+}
+
+/// What a symmetry takes for granted of labels whose images nobody has said.
+std::string imagesTaken(const Settings& given, const ModelSettings& settings,
+                        const Example& example) {
+  if (std::holds_alternative<ModelPieces>(example.content)) return {};
+  std::vector<std::string> keys;
+  const ModelSymmetry& symmetry = settings.options.symmetry;
+  const bool x = settings.mirror.x, y = settings.mirror.y, turns = symmetry.turns > 1;
+  if (x && !given.has("mirrored-x")) keys.emplace_back("`mirrored-x`");
+  if (y && !given.has("mirrored-y")) keys.emplace_back("`mirrored-y`");
+  if (turns && !given.has("turned")) keys.emplace_back("`turned`");
+  if (keys.empty()) return {};
+  const std::string what = x || y ? (turns ? "mirrored and turned" : "mirrored") : "turned";
+  return "labels of a grid do not say what they become when " + what +
+         ", so each counts as its own image; where that is wrong, say what labels become with " +
+         joined(keys, "and");
 }
 
 Statistics statisticsOf(const ModelResult& made, const Example& example, const Vec3i& size) {
@@ -80,8 +99,13 @@ void checkMethod(const Settings& given, const ModelSettings& settings) {
       if (given.has(key))
         throw InputError("`" + std::string(key) + "`: `method` whole has no blocks; leave it out");
   }
-  if (method == ModelMethod::Blocks && given.has("patience"))
-    throw InputError("`patience`: only `method` auto has it");
+  const bool blocks = method == ModelMethod::Blocks || settings.options.metropolis;
+  if (blocks && given.has("patience")) throw InputError("`patience`: only `method` auto has it");
+  for (const char* key : {"block", "rounds"}) {
+    if (!blocks && given.has(key))
+      throw InputError("`" + std::string(key) +
+                       "`: only `method` blocks has it; add `method` blocks, or leave it out");
+  }
   if (given.has("mirrored-x") && !settings.mirror.x && settings.options.symmetry.turns == 1)
     throw InputError("`mirrored-x`: has no effect without `mirror` x");
   if (given.has("mirrored-y") && !settings.mirror.y && settings.options.symmetry.turns == 1)
@@ -150,6 +174,9 @@ class ModelEngine final : public Engine {
           "smaller `size`, or a larger `budget`";
     }
     if (made.outcome != Outcome::Complete) return result;
+    if (std::string taken = imagesTaken(request.settings, settings, examples.front());
+        !taken.empty())
+      result.warnings.push_back(std::move(taken));
     result.notes.emplace_back("method", made.statistics.whole ? "in one pass" : "in blocks");
     result.data = std::move(made.frames.front());
     result.laterFrames.assign(std::make_move_iterator(made.frames.begin() + 1),

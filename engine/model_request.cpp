@@ -192,6 +192,12 @@ void readLimits(const ModelSettings& settings, const LabelGrid& grid, ModelOptio
 /// Where a result may end: a picture, and a field cut by its box, are windows into something
 /// larger.
 void usualSides(const Example& example, ModelOptions& model) {
+  const Axes& periodic = example.reading.image.periodic;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!periodic[axis]) continue;
+    for (const int side : {2 * axis, 2 * axis + 1})
+      model.sides[side] = SideRule{SideRule::Kind::Free, {}};
+  }
   if (std::holds_alternative<ImageLabels>(example.content))
     model.sides.fill(SideRule{SideRule::Kind::Free, {}});
   if (const auto* labeled = std::get_if<LabeledField>(&example.content)) {
@@ -241,12 +247,13 @@ const SettingTable<ModelSettings>& modelSettings() {
       settingRow<O>("rounds", [](O & o) -> auto& { return o.options.rounds; },
                     "method blocks: rounds over all blocks", {1, 100}),
       settingRow<O>("patience", [](O & o) -> auto& { return o.options.patience; },
-                    "method auto: large regions in a row that may fail before blocks take over",
+                    "method auto: blocks take over where repairs have taken this many times the "
+                    "work of labeling so far",
                     {0, 1e6}),
       settingRow<O>(
           "metropolis", [](O & o) -> auto& { return o.options.metropolis; },
-          "method blocks: weights and maps decide whether a modified block is kept "
-          "(Metropolis; Merrell 2007, section 4.2), not which labels are chosen"),
+          "weights and maps decide whether a modified block is kept (Metropolis; Merrell 2007, "
+          "section 4.2), not which labels are chosen; implies method blocks"),
       settingRow<O>("budget", [](O & o) -> auto& { return o.options.budget; },
                     "conflicts that the exact solver may meet in one region", {1, 1e12}),
       textsRow(
@@ -307,25 +314,76 @@ void checkTexts(const ModelSettings& settings) {
   adjacencyOptions(settings);
 }
 
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+/// Whether a word says a label's number, its name, a part of its name between commas ("concrete"
+/// of "roof 12, concrete"), or such a part without its number ("roof").
+bool says(std::string_view word, int label, const std::string& name) {
+  int number = -1;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error == std::errc{} && end == word.data() + word.size()) return label == number;
+  if (word == name) return true;
+  for (const std::string& text : split(name, ',')) {
+    const std::string_view part = trimmed(text);
+    if (part == word) return true;
+    const std::size_t space = part.find_last_of(' ');
+    if (space != part.npos && part.substr(0, space) == word &&
+        part.find_first_not_of("0123456789", space + 1) == part.npos)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<Label> parseLabels(const std::string& text, const LabelGrid& grid,
                                const std::string& what) {
   std::set<Label> labels;
-  for (const std::string& word : split(text, ',')) {
-    if (word.empty()) continue;
-    int number = -1;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    const bool isNumber = error == std::errc{} && end == word.data() + word.size();
+  const std::vector<std::string> words = split(text, ',');
+  for (std::size_t w = 0; w < words.size();) {
+    if (words[w].empty()) {
+      ++w;
+      continue;
+    }
+    // The longest name with commas that the words from here on make; else what each word says.
+    std::string name = words[w], longest;
+    std::size_t after = w;
+    for (std::size_t end = w + 1; end < words.size(); ++end) {
+      name += "," + words[end];
+      const bool known = std::any_of(grid.labels.begin(), grid.labels.end(),
+                                     [&](const LabelLook& look) { return look.name == name; });
+      if (!known) continue;
+      longest = name;
+      after = end + 1;
+    }
+    if (after > w) {
+      for (int label = 0; label < grid.labelCount(); ++label)
+        if (grid.labels[label].name == longest) labels.insert(static_cast<Label>(label));
+      w = after;
+      continue;
+    }
     bool found = false;
+    const std::vector<std::string> all = split(words[w], '+');
     for (int label = 0; label < grid.labelCount(); ++label) {
-      if (isNumber ? label == number : grid.labels[label].name == word) {
-        labels.insert(static_cast<Label>(label));
-        found = true;
-      }
+      const bool match = std::all_of(all.begin(), all.end(), [&](const std::string& word) {
+        return says(trimmed(word), label, grid.labels[label].name);
+      });
+      if (!match && !says(trimmed(words[w]), label, grid.labels[label].name)) continue;
+      labels.insert(static_cast<Label>(label));
+      found = true;
     }
     if (!found) {
-      throw InputError(what + ": there is no label '" + word + "'; labels are 0 to " +
-                       std::to_string(grid.labelCount() - 1) + ", or their names");
+      throw InputError(what + ": there is no label '" + words[w] + "'; labels are 0 to " +
+                       std::to_string(grid.labelCount() - 1) +
+                       ", their names, or words of these (see exemplar info)");
     }
+    ++w;
   }
   if (labels.empty()) throw InputError(what + ": no label is given");
   return {labels.begin(), labels.end()};
@@ -372,7 +430,11 @@ Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions&
   }
   std::vector<LabelGrid> grids;
   for (const Example& example : examples) grids.push_back(example.labels());
-  return findAdjacency(grids, options);
+  AdjacencyOptions all = options;
+  all.periodic = examples.front().reading.image.periodic;
+  if (const auto* image = std::get_if<ImageLabels>(&examples.front().content))
+    return imageAdjacency(grids, *image, all);
+  return findAdjacency(grids, all);
 }
 
 Vec3i cellsOfExample(const Example& example) {

@@ -28,8 +28,9 @@ const SettingTable<ModelSettings>& modelSettings();
 /// are not there.
 void checkTexts(const ModelSettings& settings);
 
-/// "3,wall,7": numbers or names of labels; a name may stand for several. Throws `InputError` naming
-/// `what` and which labels there are.
+/// "3,wall,7": numbers or names of labels, or parts of names: a name may stand for several, and so
+/// may "roof" or "concrete" for all whose names are like "roof 12, concrete", and "roof+concrete"
+/// for those that are both. Throws `InputError` naming `what` and which labels there are.
 std::vector<Label> parseLabels(const std::string& text, const LabelGrid& grid,
                                const std::string& what);
 

@@ -219,7 +219,9 @@ Written writeResult(const fs::path& path, const Result& result, std::span<const 
   if (result.form() == Form::Map) return writeMap(path, result.map(), options);
   if (result.form() == Form::Field) return writeField(path, result, example, progress);
   if (!result.laterFrames.empty()) return writeFrames(path, result, example, options, progress);
-  return writeLabels(path, result.labels(), example, options, progress);
+  OutputOptions written = options;
+  written.periodic = result.periodic;
+  return writeLabels(path, result.labels(), example, written, progress);
 }
 
 std::vector<Written> writeLods(const fs::path& path, const Surface& surface,
@@ -265,7 +267,7 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
   }
   if (const auto* image = std::get_if<ImageLabels>(&example.content);
       image && endsWith(path, ".png")) {
-    writePng(path, imageFromLabels(grid, *image, progress));
+    writePng(path, imageFromLabels(grid, *image, progress, options.periodic));
   } else {
     writeLabels(path, grid, progress);
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/axes.h"
 #include "core/progress.h"
 #include "core/warnings.h"
 #include "engine/example.h"
@@ -50,6 +51,8 @@ struct OutputOptions {
   MeshFileOptions mesh;
   bool instances = false;  ///< a .glb of model pieces: write each piece once and place it
   RenderOptions picture;   ///< of the frames of a .gif that is not flat
+  /// Axes along which a grid tiles: pictures are then the period. `writeResult` takes the result's.
+  Axes periodic;
   /// Hears of each file of a sequence of frames, once it is written.
   std::function<void(const std::filesystem::path&)> wrote;
 };

@@ -3,6 +3,7 @@
 
 #include "engine/page.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/file.h"
@@ -18,6 +19,23 @@ RenderOptions straightPicture(RenderOptions picture, const Turn& turn) {
   picture.view.azimuth -= turn.angle();
   return picture;
 }
+
+namespace {
+
+/// Without marks, pictures are what is seen where surfaces cannot turn: small ones, with few rays,
+/// will do, in place of minutes of light for a result made in a moment.
+constexpr int kPosterWidth = 400, kPosterSamples = 16, kPosterRays = 14;
+
+RenderOptions poster(RenderOptions picture) {
+  picture.samples = std::min(picture.samples, kPosterSamples);
+  if (picture.width > kPosterWidth) {
+    picture.height = std::max(1, picture.height * kPosterWidth / picture.width);
+    picture.width = kPosterWidth;
+  }
+  return picture;
+}
+
+}  // namespace
 
 Json pageHead(const std::string& kind, const std::filesystem::path& example,
               const std::string& description, const RenderOptions& picture) {
@@ -41,7 +59,9 @@ std::string exampleView(const TriangleMesh& mesh, const DistanceField* field,
   if (!reportsTurn()) return {};
   ViewSource source{mesh};
   source.example = field;
-  return viewPart(makeViewMesh(source, {.triangles = triangles, .picture = picture}, progress));
+  ViewOptions options{.triangles = triangles, .picture = picture};
+  if (!field) options.rays = kPosterRays;
+  return viewPart(makeViewMesh(source, options, progress));
 }
 
 PageParts pageParts(const TriangleMesh& mesh, const DistanceField* example,
@@ -62,8 +82,9 @@ PageParts pageParts(const TriangleMesh& mesh, const DistanceField* example,
     source.jumps = &jumps;
   }
   if (!reportsTurn()) return parts;
-  parts.view = viewPart(
-      makeViewMesh(source, {.triangles = triangles, .picture = picture}, progress.part(0.3, 1)));
+  ViewOptions options{.triangles = triangles, .picture = picture};
+  if (!field) options.rays = kPosterRays;
+  parts.view = viewPart(makeViewMesh(source, options, progress.part(0.3, 1)));
   return parts;
 }
 
@@ -93,8 +114,10 @@ void writePage(const ResultPage& given, Json run, const RenderOptions& asItLies,
   }
   head["has_origins"] = result.origins != nullptr;
   ReportPage page;
-  page.addPicture("example", render(result.exampleMesh, picture, progress.part(0, 0.2)));
-  page.addPicture("result", render(result.mesh, picture, progress.part(0.2, 0.4)));
+  const bool small = reportsTurn() && !result.field;
+  const RenderOptions shown = small ? poster(picture) : picture;
+  page.addPicture("example", render(result.exampleMesh, shown, progress.part(0, 0.2)));
+  page.addPicture("result", render(result.mesh, shown, progress.part(0.2, 0.4)));
   if (std::string view = exampleView(result.exampleMesh, result.exampleField, picture, kFewViews,
                                      progress.part(0.4, 0.7));
       !view.empty())

@@ -4,7 +4,9 @@
 #include "voxelize/label_image.h"
 
 #include <algorithm>
+#include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -23,13 +25,14 @@ Rgba pixelAt(const Image8& image, int x, int y) {
   return gray ? Rgba{p[0], p[0], p[0], alpha} : Rgba{p[0], p[1], p[2], alpha};
 }
 
-/// The piece whose top left pixel is (x, y).
+/// The piece whose top left pixel is (x, y); beyond its end the picture begins again.
 Image8 pieceAt(const Image8& image, int x, int y, int side) {
   Image8 piece{side, side, 4, {}};
   piece.pixels.reserve(static_cast<std::size_t>(side) * side * 4);
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
-      for (const std::uint8_t c : pixelAt(image, x + column, y + row)) piece.pixels.push_back(c);
+      const int i = (x + column) % image.width, j = (y + row + image.height) % image.height;
+      for (const std::uint8_t c : pixelAt(image, i, j)) piece.pixels.push_back(c);
     }
   }
   return piece;
@@ -73,7 +76,17 @@ ImageLabels labelsFromImage(const Image8& image, const std::string& name,
                      " pixels is smaller than one piece; `piece` is " + std::to_string(side));
   }
   const int step = options.overlap ? 1 : side;
-  const Vec3i size{(image.width - side) / step + 1, (image.height - side) / step + 1, 1};
+  if (options.periodic.z)
+    throw InputError(name + ": `example-periodic`: a picture has the axes x and y");
+  const auto along = [&](int pixels, bool periodic) {
+    if (!periodic) return (pixels - side) / step + 1;
+    if (pixels % step == 0) return pixels / step;
+    throw InputError(name + ": `example-periodic`: the picture of " + std::to_string(image.width) +
+                     " x " + std::to_string(image.height) + " pixels is not whole pieces of " +
+                     std::to_string(side) + " long, so it cannot go on from its end");
+  };
+  const Vec3i size{along(image.width, options.periodic.x), along(image.height, options.periodic.y),
+                   1};
   requireMemory(static_cast<double>(volume(size)) * (2 + (side > 1 ? 4.0 * side * side : 0)),
                 name + ": its pieces", "use a smaller picture or a smaller `piece`");
   ImageLabels result;
@@ -104,11 +117,56 @@ ImageLabels labelsFromImage(const Image8& image, const std::string& name,
   return result;
 }
 
-Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels, const Progress& progress) {
+Adjacency imageAdjacency(std::span<const LabelGrid> grids, const ImageLabels& labels,
+                         const AdjacencyOptions& options, const Progress& progress) {
+  Adjacency adjacency = findAdjacency(grids, options, progress);
+  const int side = labels.options.piece;
+  if (!labels.options.overlap || labels.options.seen || side < 2) return adjacency;
+  // Without its first or last column, or row: what a piece shares with the next one.
+  const auto shared = [&](const Image8& piece, int axis, bool last) {
+    const int x0 = axis == 0 && last ? 1 : 0, x1 = axis == 0 && !last ? side - 1 : side;
+    // Rows come from the top.
+    const int y0 = axis == 1 && !last ? 1 : 0, y1 = axis == 1 && last ? side - 1 : side;
+    std::string pixels;
+    for (int y = y0; y < y1; ++y) {
+      const auto* row = piece.at(x0, y);
+      pixels.append(row, row + 4 * static_cast<std::ptrdiff_t>(x1 - x0));
+    }
+    return pixels;
+  };
+  for (PairRule& rule : adjacency.rules) {
+    const CellOffset& o = rule.offset;
+    const int axis = o == CellOffset{1, 0, 0} ? 0 : o == CellOffset{0, 1, 0} ? 1 : 2;
+    if (axis == 2) continue;
+    std::unordered_map<std::string, std::vector<Label>> beginning;
+    for (std::size_t b = 0; b < labels.pieces.size(); ++b)
+      beginning[shared(labels.pieces[b], axis, false)].push_back(static_cast<Label>(b));
+    std::vector<LabelPair> pairs;
+    double count = 0;
+    for (std::size_t a = 0; a < labels.pieces.size(); ++a) {
+      if (a % 256 == 0) progress.check();
+      const auto next = beginning.find(shared(labels.pieces[a], axis, true));
+      if (next == beginning.end()) continue;
+      count += static_cast<double>(next->second.size());
+      requireMemory(count * sizeof(LabelPair), "the pairs of pieces that agree",
+                    "use a larger `piece`");
+      for (const Label b : next->second) {
+        const Label first = static_cast<Label>(a);
+        pairs.push_back({first, b, std::max<std::int64_t>(1, rule.count(first, b))});
+      }
+    }
+    rule.pairs = std::move(pairs);
+  }
+  return adjacency;
+}
+
+Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels, const Progress& progress,
+                       const Axes& periodic) {
   requireFlat(grid);
   const Vec3i size = grid.size();
   const int side = labels.options.piece, step = labels.options.overlap ? 1 : side;
-  const double width = (size.x - 1.0) * step + side, height = (size.y - 1.0) * step + side;
+  const double width = (size.x - 1.0) * step + (periodic.x ? step : side);
+  const double height = (size.y - 1.0) * step + (periodic.y ? step : side);
   requireMemory(4 * width * height, "the picture", "use a smaller `size`");
   Image8 image{static_cast<int>(width), static_cast<int>(height), 4, {}};
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height * 4);
@@ -123,8 +181,12 @@ Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels, const P
       }
       const Image8& piece = labels.pieces[label];
       for (int row = 0; row < side; ++row) {
-        std::copy_n(piece.at(0, row), 4 * side,
-                    image.at(x * step, image.height - side - y * step + row));
+        const int j = image.height - side - y * step + row;
+        for (int column = 0; column < side; ++column) {
+          std::copy_n(piece.at(column, row), 4,
+                      image.at((x * step + column) % image.width,
+                               ((j % image.height) + image.height) % image.height));
+        }
       }
     }
   }

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/axes.h"
 #include "core/progress.h"
 #include "mesh/image.h"
+#include "voxelize/adjacency.h"
 #include "voxelize/label_grid.h"
 
 namespace exemplar {
@@ -18,6 +20,12 @@ struct ImageLabelsOptions {
   /// Whether pieces begin at every pixel rather than at every `piece`th: each label is then a pixel
   /// with what is right of it and above it, so that adjacency reaches that far.
   bool overlap = false;
+  /// Axes, x and y, along which the picture goes on from its end with its beginning: pieces then
+  /// reach over it, where they overlap; else the picture must be whole pieces long.
+  Axes periodic;
+  /// Pieces that overlap are neighbors only where the picture shows them so, not wherever they
+  /// agree in what they share.
+  bool seen = false;
 };
 
 /// A picture as labels, and what each label looks like.
@@ -32,15 +40,25 @@ struct ImageLabels {
 
 /// Cuts a picture into labels: equal pieces (all transparent pixels are equal) are one label. What
 /// is left at the right and top, less than a piece, is not taken. Throws `InputError` ("NAME: ...")
-/// where the picture is smaller than a piece or has more than 65,536 different ones.
+/// where the picture is smaller than a piece, has more than 65,536 different ones, or is not whole
+/// pieces long along a periodic axis.
 ImageLabels labelsFromImage(const Image8& image, const std::string& name,
                             const ImageLabelsOptions& options = {}, const Progress& progress = {});
 
+/// Which labels may be neighbors: as the grids show (`findAdjacency`), and along x and y, where
+/// pieces of more than one pixel overlap and `seen` is off, all that agree in the pixels they
+/// share, as in wave function collapse with overlapping patterns. Pairs that are not shown count
+/// once. All pixels of a grid of such pairs then form a picture in which every window is one of the
+/// example's. `grids` share the labels of `labels`.
+Adjacency imageAdjacency(std::span<const LabelGrid> grids, const ImageLabels& labels,
+                         const AdjacencyOptions& options = {}, const Progress& progress = {});
+
 /// The picture of a flat grid: a piece for each label; where pieces overlap, their lower left
-/// pixels, and all of the pieces in the last column and the top row. Throws `InputError` for a grid
-/// of more than one layer or with labels that have no piece.
+/// pixels, and all of the pieces in the last column and the top row. Along `periodic` axes it is
+/// the period, a step of pixels for each cell: what reaches over its end is at its beginning.
+/// Throws `InputError` for a grid of more than one layer or with labels that have no piece.
 Image8 imageFromLabels(const LabelGrid& grid, const ImageLabels& labels,
-                       const Progress& progress = {});
+                       const Progress& progress = {}, const Axes& periodic = {});
 
 /// The picture of a flat grid, a pixel for each cell in the label's own color.
 Image8 imageFromLabels(const LabelGrid& grid, const Progress& progress = {});

@@ -4,9 +4,12 @@
 #include "voxelize/model_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <string_view>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "voxelize/cell_cut.h"
@@ -39,13 +42,14 @@ class LookMixer {
     areas_[mesh.hasMaterials() ? mesh.materials[number].name : ""] += area;
   }
 
-  LabelLook look(const std::string& kind, std::size_t number) const {
+  /// Named "piece NUMBER, MATERIAL".
+  LabelLook look(std::size_t number) const {
     LabelLook look;
     for (int c = 0; c < 4; ++c) {
       const double mean = area_ > 0 ? sum_[c] / area_ : 0.8;
       look.color[c] = std::clamp(static_cast<float>(mean), c < 3 ? 0.0f : 1.0f / 255, 1.0f);
     }
-    look.name = kind + " " + std::to_string(number);
+    look.name = "piece " + std::to_string(number);
     const auto most =
         std::max_element(areas_.begin(), areas_.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -104,6 +108,7 @@ class PieceFinder {
     progress.report("copying pieces", 0.7);
     copyPieces(progress);
     labelInside(progress.part(0.75, 0.9));
+    namePieces();
     progress.report("finding mirrored and turned pieces", 0.9);
     findImages(progress);
     return std::move(result_);
@@ -165,7 +170,7 @@ class PieceFinder {
         addFan(part, vertices);
       }
       result_.first.push_back(static_cast<std::uint32_t>(out.triangles.size()));
-      result_.grid.labels.push_back(mixer.look("piece", label));
+      result_.grid.labels.push_back(mixer.look(label));
     }
   }
 
@@ -241,6 +246,37 @@ class PieceFinder {
     look.color[3] = 1;
     result_.grid.labels.push_back(look);
     result_.first.push_back(result_.first.back());
+  }
+
+  /// Names pieces by where most of their cells lie. So far they are "piece 12, MATERIAL".
+  void namePieces() {
+    enum Place { Ground, Low, Roof, Wall, Inside, Span, kPlaces };
+    constexpr std::array<const char*, kPlaces> kNames{"ground", "low",    "roof",
+                                                      "wall",   "inside", "span"};
+    const Array3D<Label>& cells = result_.grid.cells;
+    const auto filled = [&](const Vec3i& p) { return cells.contains(p) && cells[p] != 0; };
+    std::vector<std::array<int, kPlaces>> counts(shapes_.size());
+    forEachCell(cells.size(), [&](const Vec3i& p) {
+      if (!filled(p) || cells[p] >= shapes_.size()) return;
+      const bool above = filled(p + Vec3i{0, 0, 1}), below = filled(p - Vec3i{0, 0, 1});
+      bool open = false;
+      for (const Vec3i& side : {Vec3i{1, 0, 0}, Vec3i{0, 1, 0}})
+        open = open || !filled(p + side) || !filled(p - side);
+      Place place = Span;
+      if (p.z == 0) {
+        place = Ground;
+      } else if (below && !above) {
+        place = p.z == 1 ? Low : Roof;
+      } else if (below) {
+        place = open ? Wall : Inside;
+      }
+      ++counts[cells[p]][place];
+    });
+    for (std::size_t label = 1; label < shapes_.size(); ++label) {
+      const auto most = std::max_element(counts[label].begin(), counts[label].end());
+      std::string& name = result_.grid.labels[label].name;
+      name.replace(0, std::string_view("piece").size(), kNames[most - counts[label].begin()]);
+    }
   }
 
   void findImages(const Progress& progress) {

@@ -6,6 +6,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -27,17 +28,34 @@ std::vector<int> beginnings(int n, int block, bool periodic) {
   return list;
 }
 
+/// Whether a block, by its number among the beginnings along each axis, is one of those that begin
+/// at a whole block everywhere, or between two everywhere: together they take each cell twice, and
+/// the sides of one kind lie within the other. The last one along an axis belongs to both.
+bool alternate(const std::array<std::pair<std::size_t, std::size_t>, 4>& numbers) {
+  bool whole = true, between = true;
+  for (const auto& [number, count] : numbers) {
+    if (number + 1 == count) continue;
+    whole = whole && number % 2 == 0;
+    between = between && number % 2 == 1;
+  }
+  return whole || between;
+}
+
 class BlockPass {
  public:
   BlockPass(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-            std::vector<Label> start, ModelStatistics& statistics, const Progress& progress)
+            std::vector<Label> start, bool sparse, ModelStatistics& statistics,
+            const Progress& progress)
       : problem_(problem),
+        sparse_(sparse),
         network_(problem.network()),
         base_(base),
         chooser_(chooser),
         labels_(std::move(start)),
         statistics_(statistics),
         progress_(progress),
+        span_(std::max(
+            {problem.options().block.x, problem.options().block.y, problem.options().block.z})),
         regions_([this] { return Region(network_, base_); }),
         accept_(problem.options().seed, stream::kBlockAccept) {}
 
@@ -45,8 +63,8 @@ class BlockPass {
 
  private:
   struct Block {
-    std::vector<std::int32_t> cells;  // ascending
-    std::vector<std::int32_t> seen;   // by the choice of labels, beside neighbors in the network
+    Vec3i corner;
+    int frame;
   };
   struct Change {
     bool made = false;
@@ -55,17 +73,22 @@ class BlockPass {
 
   void findBlocks();
   void findLevels();
+  /// The cells of a block grown by so many, ascending. They are not kept: each cell is in eight
+  /// blocks.
+  std::vector<std::int32_t> cellsOf(const Block& block, int grown = 0) const;
   bool accepted(const Region& region, int block, int round) const;
   Change modify(int block, int round);
   void modifyLevel(const std::vector<int>& blocks, int round);
 
   const ModelProblem& problem_;
+  bool sparse_;
   const LabelNetwork& network_;
   const LabelSets& base_;
   const LabelChooser& chooser_;
   std::vector<Label> labels_;
   ModelStatistics& statistics_;
   const Progress& progress_;
+  int span_;  // of a block, frames
   tbb::enumerable_thread_specific<Region> regions_;
   Random accept_;
 
@@ -78,9 +101,7 @@ void BlockPass::findBlocks() {
   const auto xs = beginnings(o.size.x, o.block.x, o.periodic.x);
   const auto ys = beginnings(o.size.y, o.block.y, o.periodic.y);
   const auto zs = beginnings(o.size.z, o.block.z, o.periodic.z);
-  const int span = std::max({o.block.x, o.block.y, o.block.z});
-  const auto ts = beginnings(o.frames, span, o.loop);
-  const bool seesDiagonals = o.choice == LabelChoice::Resemblance;
+  const auto ts = beginnings(o.frames, span_, o.loop);
   // Every third block along an axis first, then the ones next to these: few levels.
   struct At {
     int color, order;
@@ -93,6 +114,10 @@ void BlockPass::findBlocks() {
       for (std::size_t c = 0; c < zs.size(); ++c) {
         for (std::size_t d = 0; d < ts.size(); ++d) {
           const int color = static_cast<int>(((a % 3 * 3 + b % 3) * 3 + c % 3) * 3 + d % 3);
+          const bool taken =
+              !sparse_ ||
+              alternate({{{a, xs.size()}, {b, ys.size()}, {c, zs.size()}, {d, ts.size()}}});
+          if (!taken) continue;
           order.push_back({color, static_cast<int>(order.size()), {xs[a], ys[b], zs[c]}, ts[d]});
         }
       }
@@ -101,40 +126,37 @@ void BlockPass::findBlocks() {
   std::sort(order.begin(), order.end(), [](const At& a, const At& b) {
     return std::pair(a.color, a.order) < std::pair(b.color, b.order);
   });
-  blocks_.resize(order.size());
-  parallelFor(0, order.size(), 4, [&](std::size_t begin, std::size_t end) {
-    progress_.check();
-    for (std::size_t b = begin; b < end; ++b) {
-      const At& at = order[b];
-      const CellBox box{at.corner, at.corner + min(o.block, o.size)};
-      std::vector<std::int32_t>& seen = blocks_[b].seen;
-      blocks_[b].cells = problem_.cellsIn(box, at.frame, at.frame + span);
-      if (!seesDiagonals) continue;
-      seen = problem_.cellsIn(box.grown(1), at.frame, at.frame + span);
-      if (!o.symmetry.any()) continue;
-      // A cell that has images looks around the first of them.
-      for (const std::int32_t c : blocks_[b].cells) {
-        const auto around = problem_.cellsAround(c, 1);
-        seen.insert(seen.end(), around.begin(), around.end());
-      }
-    }
-  });
-  std::erase_if(blocks_, [](const Block& block) { return block.cells.empty(); });
+  for (const At& at : order) blocks_.push_back({at.corner, at.frame});
+}
+
+std::vector<std::int32_t> BlockPass::cellsOf(const Block& block, int grown) const {
+  const ModelOptions& o = problem_.options();
+  const CellBox box{block.corner, block.corner + min(o.block, o.size)};
+  return problem_.cellsIn(box.grown(grown), block.frame, block.frame + span_);
 }
 
 /// A block comes a level after the last earlier block that changes a cell of it, beside it, or that
 /// it looks at.
 void BlockPass::findLevels() {
+  const bool seesDiagonals = problem_.options().choice == LabelChoice::Resemblance;
   std::vector<int> changedAt(network_.cells, -1);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (b % 256 == 0) progress_.check();
     int level = 0;
     const auto after = [&](int c) { level = std::max(level, changedAt[c] + 1); };
-    for (const std::int32_t c : blocks_[b].cells) {
+    const std::vector<std::int32_t> cells = cellsOf(blocks_[b]);
+    if (cells.empty()) continue;
+    for (const std::int32_t c : cells) {
       after(c);
       network_.forEachNeighbor(c, [&](int n, int) { after(n); });
+      // A cell that has images looks around the first of them.
+      if (!seesDiagonals || !problem_.options().symmetry.any()) continue;
+      for (const std::int32_t seen : problem_.cellsAround(c, 1)) after(seen);
     }
-    for (const std::int32_t c : blocks_[b].seen) after(c);
-    for (const std::int32_t c : blocks_[b].cells) changedAt[c] = level;
+    if (seesDiagonals) {
+      for (const std::int32_t c : cellsOf(blocks_[b], 1)) after(c);
+    }
+    for (const std::int32_t c : cells) changedAt[c] = level;
     if (level >= static_cast<int>(levels_.size())) levels_.resize(level + 1);
     levels_[level].push_back(static_cast<int>(b));
   }
@@ -158,15 +180,16 @@ BlockPass::Change BlockPass::modify(int block, int round) {
   Change change;
   Region& region = regions_.local();
   const Region::Counts before = region.counts();
-  if (!region.takeBack(blocks_[block].cells, labels_, progress_))
+  if (!region.takeBack(cellsOf(blocks_[block]), labels_, progress_))
     return change;  // cannot be: the old fit
   const std::uint64_t number = static_cast<std::uint64_t>(round) * blocks_.size() + block;
   RegionChoice choice{chooser_.numbersFor(LabelChooser::Purpose::Blocks).fork(number)};
   choice.choose = [&](const Random& random, int c, std::span<const LabelWord> set, int draw) {
     return chooser_.choose(random, c, set, draw, region.placed());
   };
-  RegionEffort effort;  // not more than this: the old labels will do as well
-  effort.exactConflicts = std::min(effort.exactConflicts, problem_.options().budget);
+  // Not more than this: the old labels will do as well. The exact solver, which takes a hundred
+  // times as long as a pass, would set few more of them free.
+  const RegionEffort effort{.passes = 1, .searches = 1, .searchConflicts = 30, .exactConflicts = 0};
   if (region.relabel(effort, choice, progress_) == Outcome::Complete &&
       accepted(region, block, round)) {
     region.keep(labels_);
@@ -207,9 +230,9 @@ Labeling BlockPass::run() {
 }  // namespace
 
 Labeling labelInBlocks(const ModelProblem& problem, const LabelSets& base,
-                       const LabelChooser& chooser, std::vector<Label> start,
+                       const LabelChooser& chooser, std::vector<Label> start, bool sparse,
                        ModelStatistics& statistics, const Progress& progress) {
-  return BlockPass(problem, base, chooser, std::move(start), statistics, progress).run();
+  return BlockPass(problem, base, chooser, std::move(start), sparse, statistics, progress).run();
 }
 
 }  // namespace exemplar

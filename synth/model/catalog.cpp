@@ -9,15 +9,23 @@
 namespace exemplar {
 
 Catalog::Catalog(const LabelNetwork& network)
-    : network_(&network),
-      words_(network.words()),
-      domains_((static_cast<std::size_t>(network.cells) + 1) * words_, 0),
-      queue_(std::bit_ceil(static_cast<std::size_t>(network.cells) + 1)),
-      ringMask_(queue_.size() - 1),
-      queuedFrom_(network.cells, kIdle),
-      supported_(words_),
-      savedAt_(network.cells, 0) {
+    : network_(&network), words_(network.words()), supported_(words_) {
   for (const LabelSets& table : network.support) tables_.push_back(table.data());
+  restart();
+}
+
+void Catalog::restart() {
+  const std::size_t cells = static_cast<std::size_t>(network_->cells);
+  domains_.assign((cells + 1) * words_, 0);
+  queue_.resize(std::max<std::size_t>(queue_.size(), 1024));
+  ringMask_ = queue_.size() - 1;
+  head_ = waiting_ = 0;
+  queuedFrom_.assign(cells, kIdle);
+  savedAt_.assign(cells, 0);
+  lastStamp_ = 0;
+  commit();
+  reasonWords_ = 0;
+  steps_ = 0;
 }
 
 bool Catalog::empty(int cell) const {
@@ -42,10 +50,20 @@ int Catalog::firstLabel(int cell) const {
   return static_cast<int>(w * 64 + std::countr_zero(set[w]));
 }
 
+/// Mostly few of many cells wait.
+void Catalog::growQueue() {
+  std::vector<std::int32_t> larger(2 * queue_.size());
+  for (std::size_t i = 0; i < waiting_; ++i) larger[i] = queue_[(head_ + i) & ringMask_];
+  queue_ = std::move(larger);
+  ringMask_ = queue_.size() - 1;
+  head_ = 0;
+}
+
 void Catalog::push(int cell, std::uint8_t from) {
   std::uint8_t& queued = queuedFrom_[cell];
   if (queued == kIdle) {
     queued = from;
+    if (waiting_ == queue_.size()) growQueue();
     queue_[(head_ + waiting_++) & ringMask_] = cell;
   } else if (queued != from) {
     queued = kNoSlot;
@@ -79,10 +97,9 @@ bool Catalog::propagateAll(const Progress& progress) {
     return false;
   }
   all_ = true;
-  remembered_.assign(kRemembered * rememberedWords(), 0);
+  remembered_.resize(kRemembered * rememberedWords(), 0);
   const bool sound = propagate(progress);
   all_ = false;
-  remembered_ = {};
   return sound;
 }
 

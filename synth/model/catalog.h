@@ -28,6 +28,9 @@ class Catalog {
  public:
   /// All sets empty: `setDomain` for each cell, then `propagateAll`.
   explicit Catalog(const LabelNetwork& network);
+  /// All sets empty again, after the network's cells have changed (its tables must be the same):
+  /// quicker than a new one.
+  void restart();
 
   const LabelNetwork& network() const { return *network_; }
   std::span<const LabelWord> domain(int cell) const {
@@ -80,6 +83,7 @@ class Catalog {
   static constexpr std::size_t kRemembered = 64;
 
   void push(int cell, std::uint8_t from);
+  void growQueue();
   void save(int cell);
   void forgetQueue();
   template <int W>

@@ -121,6 +121,54 @@ std::int64_t limitsMissed(const ModelProblem& problem, const std::vector<Label>&
   return Limits(problem).look(labels).missed;
 }
 
+std::optional<std::string> impossibleLimit(const ModelProblem& problem, const LabelSets& base) {
+  const std::vector<CountLimit>& counts = problem.options().counts;
+  if (counts.empty()) return std::nullopt;
+  const int labels = problem.network().labels;
+  std::vector<std::vector<bool>> sets;
+  for (const CountLimit& c : counts) sets.push_back(membership(c.labels, labels));
+  std::vector<std::int64_t> may(counts.size(), 0), must(counts.size(), 0);
+  std::int64_t positions = 0;
+  for (std::int64_t at = 0; at < problem.positions(); ++at) {
+    const int c = problem.cell(at);
+    if (c < 0) continue;
+    ++positions;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      bool some = false, all = true;
+      forEachLabel(base[c], [&](int b) {
+        const bool counted = sets[i][problem.labelAt(at, static_cast<Label>(b))];
+        some = some || counted;
+        all = all && counted;
+      });
+      may[i] += some;
+      must[i] += all;
+    }
+  }
+  const auto named = [](std::size_t i) { return "`count` number " + std::to_string(i + 1); };
+  std::int64_t together = 0;
+  std::vector<bool> taken(static_cast<std::size_t>(labels), false);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i].least > may[i]) {
+      return named(i) + " asks for " + std::to_string(counts[i].least) + " cells or more, and of " +
+             std::to_string(positions) + " only " + std::to_string(may[i]) + " can have its labels";
+    }
+    if (counts[i].most && *counts[i].most < must[i]) {
+      return named(i) + " asks for " + std::to_string(*counts[i].most) + " cells or fewer, and " +
+             std::to_string(must[i]) + " must have its labels";
+    }
+    bool apart = true;
+    for (int b = 0; b < labels; ++b) apart = apart && !(sets[i][b] && taken[b]);
+    if (!apart) continue;
+    for (int b = 0; b < labels; ++b) taken[b] = taken[b] || sets[i][b];
+    together += counts[i].least;
+    if (together > positions) {
+      return named(i) + " and those before it ask for " + std::to_string(together) +
+             " cells together, and there are " + std::to_string(positions);
+    }
+  }
+  return std::nullopt;
+}
+
 Labeling meetLimits(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                     std::vector<Label> labels, ModelStatistics& statistics,
                     const Progress& progress) {

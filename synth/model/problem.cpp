@@ -306,7 +306,7 @@ void ModelProblem::buildCells(const Progress& progress) {
     if (at % kCellsBetweenChecks == 0) progress.check();
     if (cellOf_[at] >= 0 || hole(at)) continue;
     const int cell = static_cast<int>(positionOf_.size());
-    positionOf_.push_back(at);
+    positionOf_.push_back(static_cast<std::int32_t>(at));
     cellOf_[at] = cell;
     if (!symmetric) continue;
 

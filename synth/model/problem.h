@@ -76,7 +76,7 @@ class ModelProblem {
   SymmetryGroup symmetry_;
   LabelNetwork network_;
   std::vector<std::int32_t> cellOf_;
-  std::vector<std::int64_t> positionOf_;
+  std::vector<std::int32_t> positionOf_;  // a grid has at most 2^30 positions
   std::vector<std::uint8_t> imageOf_;
   LabelSets unary_;  // what symmetry alone leaves; without rows where it is not symmetric
 };

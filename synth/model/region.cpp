@@ -13,6 +13,18 @@
 
 namespace exemplar {
 
+namespace {
+
+/// In steps of the catalog, by measurement: a literal of the exact solver's clauses, and one of
+/// its own steps.
+constexpr std::int64_t kStepsPerLiteral = 2, kStepsPerExactStep = 800;
+/// Literals for a label of a cell, by measurement: 28 to 35 in regions of eight examples.
+constexpr std::int64_t kLiteralsPerLabel = 33;
+/// With reasons a step carries so many words of them beside the cost of one without.
+constexpr std::int64_t kReasonWordsPerStep = 8;
+
+}  // namespace
+
 Region::Region(const LabelNetwork& network, const LabelSets& base)
     : network_(network), base_(base), part_(network) {
   placed_ = [this](int cell) -> int {
@@ -52,17 +64,36 @@ bool Region::takeBack(std::span<const std::int32_t> cells, std::span<const std::
 template <class Restrict>
 bool Region::begin(const Restrict& restrict, const Progress& progress) {
   deciding_ = spoiled_ = false;
-  catalog_.emplace(part_.network());
+  if (catalog_) {
+    catalog_->restart();
+  } else {
+    catalog_.emplace(part_.network());
+  }
+  stepsCounted_ = 0;
   sets_ = LabelSets(network_.labels, static_cast<std::size_t>(count()));
+  // Where the sets of `base` have support, only what the surroundings take away can empty others.
+  const bool everything = count() == network_.cells;
+  bool sound = true;
   for (int i = 0; i < count(); ++i) {
     const auto all = base_[cells()[i]];
-    std::copy(all.begin(), all.end(), sets_[i].begin());
-    restrict(i, sets_[i]);
-    catalog_->setDomain(i, sets_[i]);
+    const auto set = sets_[i];
+    std::copy(all.begin(), all.end(), set.begin());
+    restrict(i, set);
+    catalog_->setDomain(i, set);
+    if (everything || std::equal(all.begin(), all.end(), set.begin())) continue;
+    catalog_->touch(i);
+    sound = sound && !catalog_->empty(i);
   }
-  if (!catalog_->propagateAll(progress)) return false;
-  rememberSets();
-  return true;
+  sound = sound && (everything ? catalog_->propagateAll(progress) : catalog_->propagate(progress));
+  countSteps();
+  if (sound) rememberSets();
+  return sound;
+}
+
+void Region::countSteps() {
+  const std::int64_t steps = catalog_->steps() - stepsCounted_;
+  counts_.work += steps + steps * catalog_->reasonWords() / kReasonWordsPerStep;
+  stepsCounted_ = catalog_->steps();
 }
 
 void Region::rememberSets() {
@@ -109,27 +140,50 @@ Outcome Region::relabel(const RegionEffort& effort, const RegionChoice& choice,
       return choice.choose(random, cells()[i], labels, draw);
     };
   };
-  for (int pass = 0; pass < effort.passes; ++pass) {
+  const std::int64_t before = counts_.work;
+  const auto left = [&] {
+    return effort.work == RegionEffort::kNoLimit ? effort.work
+                                                 : effort.work - (counts_.work - before);
+  };
+  for (int pass = 0; pass < effort.passes && left() > 0; ++pass) {
     const Random random = choice.random.fork(attempt++);
     restore();
     deciding_ = spoiled_ = true;
-    if (!labelInOrder(*catalog_, order_, chooseFrom(random), counts_.contradictions, progress)) {
+    const bool labeled =
+        labelInOrder(*catalog_, order_, chooseFrom(random), counts_.contradictions, progress);
+    countSteps();
+    if (!labeled) {
       ++counts_.contradictions;
       continue;
     }
     if (accept(choice)) return Outcome::Complete;
   }
-  for (int search = 0; search < effort.searches; ++search) {
+  // Reasons have a bit for each decision.
+  const std::int64_t reasons = static_cast<std::int64_t>(order_.size()) / 64 + 1;
+  for (int search = 0; search < effort.searches && left() > 0; ++search) {
     const Random random = choice.random.fork(attempt++);
     restore();
     deciding_ = spoiled_ = true;
+    const std::int64_t last =
+        left() == RegionEffort::kNoLimit
+            ? left()
+            : catalog_->steps() + left() / (1 + reasons / kReasonWordsPerStep);
     const Outcome outcome =
-        searchLabels(*catalog_, order_, chooseFrom(random), effort.searchConflicts, progress);
+        searchLabels(*catalog_, order_, chooseFrom(random), effort.searchConflicts, progress, last);
+    countSteps();
     if (outcome == Outcome::Impossible) return outcome;
     if (outcome == Outcome::Complete && accept(choice)) return outcome;
   }
   if (effort.exactConflicts == 0) return Outcome::Unfinished;
-  return solveExactly(effort, choice, choice.random.fork(attempt), progress);
+  if (effort.work == RegionEffort::kNoLimit)
+    return solveExactly(effort, choice, choice.random.fork(attempt), progress);
+  std::int64_t labels = 0;
+  for (int i = 0; i < count(); ++i) labels += labelsIn(sets_[i]);
+  RegionEffort rest = effort;
+  rest.work = left() - labels * kLiteralsPerLabel * kStepsPerLiteral;
+  if (rest.work <= 0) return Outcome::Unfinished;
+  rest.exactSteps = std::min(rest.exactSteps, rest.work / kStepsPerExactStep + 1);
+  return solveExactly(rest, choice, choice.random.fork(attempt), progress);
 }
 
 Outcome Region::solveExactly(const RegionEffort& effort, const RegionChoice& choice,
@@ -142,7 +196,8 @@ Outcome Region::solveExactly(const RegionEffort& effort, const RegionChoice& cho
     exact.prefer(i, choice.prefer ? choice.prefer(cell, sets_[i])
                                   : choice.choose(random, cell, sets_[i], 0));
   }
-  const Outcome outcome = exact.solve({}, effort.exactConflicts, progress);
+  const Outcome outcome = exact.solve({}, effort.exactConflicts, progress, effort.exactSteps);
+  counts_.work += exact.literals() * kStepsPerLiteral + exact.steps() * kStepsPerExactStep;
   if (outcome != Outcome::Complete) return outcome;
   for (int i = 0; i < count(); ++i) found_[i] = static_cast<Label>(exact.label(i));
   return !choice.fits || choice.fits() ? Outcome::Complete : Outcome::Unfinished;

@@ -50,7 +50,8 @@ bool labelInOrder(Catalog& catalog, std::span<const std::int32_t> order, const C
 }
 
 Outcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order,
-                     const ChooseLabel& choose, std::int64_t conflicts, const Progress& progress) {
+                     const ChooseLabel& choose, std::int64_t conflicts, const Progress& progress,
+                     std::int64_t lastStep) {
   catalog.keepReasons(static_cast<int>(order.size()) + 1);
   const int words = catalog.reasonWords();
   std::vector<Decision> decisions;
@@ -75,7 +76,7 @@ Outcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order,
 
     while (!sound) {
       progress.check();
-      if (++met > conflicts) {
+      if (++met > conflicts || catalog.steps() > lastStep) {
         if (!decisions.empty()) catalog.undoTo(0);
         return Outcome::Unfinished;
       }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 
 #include "core/outcome.h"
@@ -29,10 +30,12 @@ bool labelInOrder(Catalog& catalog, std::span<const std::int32_t> order, const C
 /// that is, and takes its label away.
 ///
 /// The catalog must be arc consistent, without marks. When Complete it holds the solution; when
-/// Impossible none exists; otherwise more than `conflicts` cells were left without labels, and
-/// the catalog is back where it was but for labels that were shown not to work.
+/// Impossible none exists; otherwise more than `conflicts` cells were left without labels, or
+/// `Catalog::steps` has passed `lastStep`, and the catalog is back where it was but for labels that
+/// were shown not to work.
 Outcome searchLabels(Catalog& catalog, std::span<const std::int32_t> order,
                      const ChooseLabel& choose, std::int64_t conflicts,
-                     const Progress& progress = {});
+                     const Progress& progress = {},
+                     std::int64_t lastStep = std::numeric_limits<std::int64_t>::max());
 
 }  // namespace exemplar

@@ -13,9 +13,11 @@
 namespace exemplar {
 
 /// A consistent labeling to begin with: a column of cells, or a tile of up to three by three of
-/// them, that repeats along x and y and meets every demand. The thesis takes the example's corner
-/// or empty space for granted (section 3.3.6); here tiles are searched, smallest first, exactly
-/// where propagation does not decide. None: no tile of these sizes does.
+/// them (eight by eight in a flat result), that repeats along x and y and meets every demand; where
+/// none does, with one to four columns along each side that do not repeat, since what may be at a
+/// side seldom goes on within. The thesis takes the example's corner or empty space for granted
+/// (section 3.3.6); here tiles are searched, smallest first, exactly where propagation does not
+/// decide. None: no tile of these sizes does. O(cells) for each size tried.
 std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, const LabelSets& base,
                                                  const LabelChooser& chooser,
                                                  ModelStatistics& statistics,

@@ -153,7 +153,8 @@ Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelCh
     done = half;
   }
   statistics.whole = false;
-  return labelInBlocks(problem, base, chooser, std::move(*tiled), statistics,
+  const bool sparse = method == ModelMethod::Auto && problem.options().rounds == 1;
+  return labelInBlocks(problem, base, chooser, std::move(*tiled), sparse, statistics,
                        progress.part(done, 1));
 }
 
@@ -173,6 +174,11 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
   const bool possible = makeArcConsistent(problem.network(), base, progress);
   Labeling labeling{Outcome::Impossible, {}};
   if (possible) {
+    if (const auto why = impossibleLimit(problem, base)) {
+      result.outcome = Outcome::Impossible;
+      result.conflict.text = *why;
+      return result;
+    }
     progress.report("counting neighbors in the example", 0.08);
     const LabelChooser chooser(problem, examples, progress);
     labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, 0.85));

@@ -77,8 +77,9 @@ struct ModelOptions {
   ModelMethod method = ModelMethod::Auto;
   LabelChoice choice = LabelChoice::Neighbors;
 
-  /// Auto: how many large regions in a row may fail before blocks take over, >= 0.
-  int patience = 8;
+  /// Auto: blocks take over where repairs have taken more than this many times the work of labeling
+  /// a hundred thousand cells and a quarter of those done so far, >= 0.
+  int patience = 3;
   Vec3i block{10, 10, 10};  ///< cells; each component >= 2; blocks overlap by half
   int rounds = 1;           ///< over all blocks, 1..100
 

@@ -18,11 +18,9 @@ namespace {
 
 /// How far a region reaches that is taken back, in cells: the first tries are small.
 constexpr std::array<int, 7> kReach{2, 3, 4, 6, 9, 16, 24};
-/// From here on the exact solver may take a second.
-constexpr int kLarge = 9;
 /// At last everything is taken back, unless that is more labels than the exact solver could hold.
 constexpr int kEverywhere = 1 << 20;
-constexpr std::int64_t kMostLabelsAtOnce = 4'000'000;
+constexpr std::int64_t kMostLabelsAtOnce = 2'000'000;
 /// How far around it cells that are not labeled yet are looked at too.
 constexpr int kMargin = 3;
 /// Conflicts that the exact solver may meet in a region before a larger one, which is freer, is
@@ -30,7 +28,16 @@ constexpr int kMargin = 3;
 constexpr std::int64_t kRegionConflicts = 5000;
 /// A search remembers for each cell which decisions mattered: for more cells than this the exact
 /// solver, which learns from conflicts, is sooner done.
-constexpr std::size_t kMostSearched = 12000;
+constexpr std::size_t kMostSearched = 4000;
+constexpr std::int64_t kSearchConflicts = 300;
+/// Blocks seldom make more than what they began with of a flat picture whose lines all go on:
+/// there the whole is worth a second or two.
+constexpr std::int64_t kCellsAtFirstFlat = 2'000'000;
+/// What labeling a cell takes, and where it goes well at most, in steps of `Catalog::steps`; for
+/// how many cells repairs may take as much at once; and the share of the cells labeled so far for
+/// which they may, too.
+constexpr std::int64_t kStepsPerCell = 5, kMostStepsPerCell = 10, kCellsAtFirst = 100'000,
+                       kShare = 4;
 /// So many repairs near each other in a row before the next one begins with a larger region.
 constexpr int kRepairsInPlace = 3;
 
@@ -52,6 +59,16 @@ class WholePass {
   Labeling run();
 
  private:
+  /// What repairs may still take where `cell` is the next to be labeled.
+  std::int64_t workLeft(int cell) const {
+    if (!patience_) return RegionEffort::kNoLimit;
+    const std::int64_t cells = cell;
+    const std::int64_t atFirst = problem_.options().size.z == 1 ? kCellsAtFirstFlat : kCellsAtFirst;
+    const std::int64_t beyond = catalog_.steps() - kMostStepsPerCell * cells;
+    const std::int64_t spent =
+        (region_ ? region_->counts().work : 0) + std::max<std::int64_t>(0, beyond);
+    return *patience_ * kStepsPerCell * (atFirst + cell / kShare) - spent;
+  }
   Outcome repair(int cell);
   Outcome repairWithin(int cell, int reach);
   int mostFrequent(std::span<const LabelWord> labels) const;
@@ -63,7 +80,6 @@ class WholePass {
   ModelStatistics& statistics_;
   const Progress& progress_;
   std::optional<int> patience_;
-  int large_ = 0;  // large regions in a row that could not be labeled
   Catalog catalog_;
   std::optional<Region> region_;  // made for the first repair
   std::uint64_t repairs_ = 0;
@@ -84,7 +100,6 @@ int WholePass::mostFrequent(std::span<const LabelWord> labels) const {
 /// Unfinished where that did not succeed; Impossible where the region was everything and it is
 /// proved that nothing fits.
 Outcome WholePass::repairWithin(int cell, int reach) {
-  if (!region_) region_.emplace(network_, base_);
   Region& region = *region_;
   const std::vector<std::int32_t> inner = problem_.cellsAround(cell, reach);
   const std::vector<std::int32_t> wide = problem_.cellsAround(cell, reach + kMargin);
@@ -100,8 +115,10 @@ Outcome WholePass::repairWithin(int cell, int reach) {
   RegionEffort effort;
   effort.passes = 0;
   effort.searches = inner.size() <= kMostSearched ? 2 : 0;
-  effort.searchConflicts = 50 + static_cast<std::int64_t>(inner.size()) / 4;
+  effort.searchConflicts =
+      std::min(kSearchConflicts, 50 + static_cast<std::int64_t>(inner.size()) / 4);
   effort.exactConflicts = everything ? budget : std::min(budget, kRegionConflicts);
+  effort.work = workLeft(cell);
   RegionChoice choice{chooser_.numbersFor(LabelChooser::Purpose::Repairs).fork(repairs_++)};
   choice.choose = [&](const Random& random, int c, std::span<const LabelWord> set, int draw) {
     return chooser_.choose(random, c, set, draw, region.placed());
@@ -118,6 +135,7 @@ Outcome WholePass::repairWithin(int cell, int reach) {
 }
 
 Outcome WholePass::repair(int cell) {
+  if (!region_) region_.emplace(network_, base_);
   // Where the last repairs were near, too, regions of that size do not help.
   std::size_t first = 0;
   const Vec3i here = problem_.cellAt(problem_.positionOf(cell));
@@ -132,19 +150,16 @@ Outcome WholePass::repair(int cell) {
     }
   }
   for (std::size_t r = first; r < kReach.size(); ++r) {
+    if (workLeft(cell) <= 0) return Outcome::Unfinished;
     ++statistics_.repairs;
     const Outcome outcome = repairWithin(cell, kReach[r]);
-    if (outcome == Outcome::Unfinished && kReach[r] >= kLarge && patience_ &&
-        ++large_ > *patience_) {
-      return outcome;
-    }
     if (outcome != Outcome::Unfinished) {
-      large_ = 0;
       lastRepaired_ = cell;
       lastReach_ = static_cast<int>(r);
       return outcome;
     }
   }
+  if (workLeft(cell) <= 0) return Outcome::Unfinished;
   std::int64_t labels = 0;
   for (int c = 0; c < network_.cells; ++c) labels += labelsIn(base_[c]);
   if (labels > kMostLabelsAtOnce) return Outcome::Unfinished;
@@ -165,7 +180,10 @@ Labeling WholePass::run() {
       return chooser_.choose(chooser_.numbersForPass(), cell, set, draw, placed);
     };
     const std::int32_t one[1] = {c};
-    if (labelInOrder(catalog_, one, choose, statistics_.contradictions, progress_)) continue;
+    if (labelInOrder(catalog_, one, choose, statistics_.contradictions, progress_)) {
+      if (c % 64 != 0 || workLeft(c) > 0) continue;
+      return result;
+    }
     const Outcome outcome = repair(c);
     if (outcome != Outcome::Complete) {
       result.outcome = outcome;

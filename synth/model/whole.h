@@ -24,9 +24,12 @@ struct Labeling {
 /// loses all of its labels in this way, the region around it (`Region`) is taken back and
 /// relabeled, by search and then exactly; the region grows until that succeeds.
 ///
-/// With `patience`, ends Unfinished after more than that many large regions in a row that could not
-/// be labeled. Impossible where the region has grown to everything and the exact solver proves that
-/// nothing fits; Unfinished where it could not decide. Throws `Cancelled`.
+/// With `patience`, ends Unfinished where all repairs so far take more than that many times the
+/// work of labeling a hundred thousand cells and a quarter of those done so far: the time is then
+/// linear in cells, and regions do not grow past what this allows. Work is counted, not timed, so
+/// that it ends at the same cell on every machine. Impossible where the region has grown to
+/// everything and the exact solver proves that nothing fits; Unfinished where it could not decide.
+/// Throws `Cancelled`.
 Labeling labelWhole(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                     ModelStatistics& statistics, const Progress& progress,
                     std::optional<int> patience = std::nullopt);

@@ -230,6 +230,58 @@ TEST_F(LabelCommand, PicturesComeBackAsPictures) {
   EXPECT_EQ(over.height, 6);
 }
 
+TEST_F(LabelCommand, APeriodicPictureIsThePeriod) {
+  // Flowers on meadow: every 3 x 3 pixels of the result, laid side by side, are the example's.
+  const std::vector<std::string> drawn{"........", "..a.....", ".aba..c.", "..a..c.c",
+                                       "..g...c.", "..g...g.", "..g...g.", "eeeeeeee"};
+  Image8 picture{8, 8, 3, {}};
+  for (const std::string& row : drawn) {
+    for (const char c : row) {
+      for (int k = 0; k < 3; ++k)
+        picture.pixels.push_back(static_cast<std::uint8_t>((c * (k + 3)) % 251));
+    }
+  }
+  writePng(folder_ / "f.png", picture);
+  const CommandResult result =
+      run("synth f.png --engine model --piece 3 --overlap --example-periodic xy --periodic xy "
+          "-o out.png --size 24,16,1 -q");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Image8 out = decodeImage(readFile(folder_ / "out.png"), "out.png");
+  ASSERT_EQ(out.width, 24);
+  ASSERT_EQ(out.height, 16);
+  const auto windows = [](const Image8& image) {
+    std::set<std::string> all;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        std::string window;
+        for (int n = 0; n < 9; ++n) {
+          const auto* p = image.at((x + n % 3) % image.width, (y + n / 3) % image.height);
+          for (int k = 0; k < 3; ++k) window.push_back(static_cast<char>(p[k]));
+        }
+        all.insert(std::move(window));
+      }
+    }
+    return all;
+  };
+  Image8 colors{out.width, out.height, 3, {}};
+  for (int n = 0; n < out.width * out.height; ++n) {
+    const auto* p = out.at(n % out.width, n / out.width);
+    colors.pixels.insert(colors.pixels.end(), p, p + 3);
+  }
+  const auto shown = windows(picture), made = windows(colors);
+  EXPECT_TRUE(std::includes(shown.begin(), shown.end(), made.begin(), made.end()));
+  EXPECT_GT(made.size(), 1u);
+}
+
+TEST_F(LabelCommand, OptionsTakeSeveralValues) {
+  const CommandResult result =
+      run("synth --pin 3,3,0=5 3,3,1=9 rings.txt -o out.txt --size 9,9,3 -q --weight 1=2 2=1");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Grid grid = readGrid(folder_ / "out.txt");
+  EXPECT_EQ(grid.at(3, 3, 0), 5);
+  EXPECT_EQ(grid.at(3, 3, 1), 9);
+}
+
 TEST_F(LabelCommand, FramesOfAnExampleBecomeFramesOfAResult) {
   // A ball that moves one cell to the right each frame, round and round.
   std::string frames;
@@ -356,6 +408,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadRequest{"BadSide", "e.txt -o o.txt --side up=free", "--side up=free"},
         BadRequest{"NegativeWeight", "e.txt -o o.txt --weight 1=-2", "a weight is 0 or more"},
         BadRequest{"BadAxis", "e.txt -o o.txt --periodic xw", "--periodic xw"},
+        BadRequest{"RoundsWithoutBlocks", "e.txt -o o.txt --rounds 2", "only --method blocks"},
         BadRequest{"FramesOfOne", "e.txt -o o.txt --frames 3", "--frames"},
         BadRequest{"StillGif", "e.txt -o o.gif", "o.gif"},
         BadRequest{"TwoImages", "e.txt -o o.txt --mirrored-x 1,2=3", "one label on each side"},

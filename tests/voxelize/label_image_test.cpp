@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "tests/voxelize/error_of.h"
@@ -14,6 +15,7 @@
 namespace exemplar {
 namespace {
 
+using test::errorOf;
 using testing::HasSubstr;
 
 /// RGBA pixels drawn from four colors, one of them transparent.
@@ -65,6 +67,67 @@ TEST(LabelsFromImage, PiecesThatOverlapArePutBackAsTheyWere) {
     EXPECT_EQ(labels.grid.size(), (Vec3i{12 - piece, 8 - piece, 1}));
     EXPECT_EQ(imageFromLabels(labels.grid, labels).pixels, image.pixels) << piece;
   }
+}
+
+TEST(LabelsFromImage, APeriodicPictureHasAPieceAtEveryPixel) {
+  const Image8 image = randomImage(7, 5, 4);
+  const ImageLabels labels =
+      labelsFromImage(image, "f", {.piece = 3, .overlap = true, .periodic = {true, true, false}});
+  EXPECT_EQ(labels.grid.size(), (Vec3i{7, 5, 1}));
+  // Its period is itself; rolled by some cells it is the picture rolled.
+  EXPECT_EQ(imageFromLabels(labels.grid, labels, {}, {true, true, false}).pixels, image.pixels);
+  LabelGrid rolled = labels.grid;
+  forEachCell(rolled.size(), [&](const Vec3i& p) {
+    rolled.cells[p] = labels.grid.cells((p.x + 3) % 7, (p.y + 2) % 5, 0);
+  });
+  const Image8 back = imageFromLabels(rolled, labels, {}, {true, true, false});
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 7; ++x) {
+      const auto* there = image.at((x + 3) % 7, (y + 5 - 2) % 5);
+      EXPECT_TRUE(std::equal(there, there + 4, back.at(x, y))) << x << ", " << y;
+    }
+  }
+  EXPECT_THAT(errorOf([&] {
+                (void)labelsFromImage(image, "f", {.piece = 2, .periodic = {true, false, false}});
+              }),
+              HasSubstr("not whole pieces"));
+}
+
+TEST(ImageAdjacency, PiecesThatAgreeInWhatTheyShareAreNeighbors) {
+  int more = 0;
+  for (int trial = 0; trial < 6; ++trial) {
+    const Image8 image = randomImage(12, 10, 20 + trial);
+    ImageLabels labels = labelsFromImage(image, "f", {.piece = 2 + trial % 2, .overlap = true});
+    const int side = labels.options.piece;
+    const Adjacency adjacency = imageAdjacency({&labels.grid, 1}, labels);
+    const Adjacency seen = findAdjacency(labels.grid);
+    for (int axis = 0; axis < 2; ++axis) {
+      for (int a = 0; a < adjacency.labelCount; ++a) {
+        for (int b = 0; b < adjacency.labelCount; ++b) {
+          // Pixels of b lie one to the right of, or one above, those of a.
+          bool agree = true;
+          for (int y = axis; y < side; ++y) {
+            for (int x = 0; x + 1 - axis < side; ++x) {
+              const auto* p = labels.pieces[a].at(axis == 0 ? x + 1 : x, axis == 0 ? y : y - 1);
+              const auto* q = labels.pieces[b].at(x, y);
+              agree = agree && std::equal(p, p + 4, q);
+            }
+          }
+          const Label first = static_cast<Label>(a), second = static_cast<Label>(b);
+          ASSERT_EQ(adjacency.rules[axis].allows(first, second), agree);
+          if (seen.rules[axis].allows(first, second)) {
+            EXPECT_EQ(adjacency.rules[axis].count(first, second),
+                      seen.rules[axis].count(first, second));
+          } else {
+            more += agree;
+          }
+        }
+      }
+    }
+    labels.options.seen = true;
+    EXPECT_EQ(imageAdjacency({&labels.grid, 1}, labels).rules[0].pairs, seen.rules[0].pairs);
+  }
+  EXPECT_GT(more, 0) << "pictures do not show all that agree";
 }
 
 TEST(LabelsFromImage, LeftOverPixelsLieAtTheTopAndRight) {

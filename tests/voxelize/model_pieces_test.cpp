@@ -166,8 +166,32 @@ TEST(ModelPieces, MaterialsTellPiecesApart) {
   EXPECT_EQ(pieces.grid.labelCount(), 3);
   EXPECT_EQ(pieces.grid.cells(0, 0, 0), pieces.grid.cells(4, 0, 0));
   EXPECT_NE(pieces.grid.cells(0, 0, 0), pieces.grid.cells(2, 0, 0));
-  EXPECT_EQ(pieces.grid.labels[2].name, "piece 2, wood");
+  EXPECT_EQ(pieces.grid.labels[2].name, "ground 2, wood");
   EXPECT_FLOAT_EQ(pieces.grid.labels[2].color[0], 0.5f);
+}
+
+TEST(ModelPieces, NamesSayWherePiecesLie) {
+  // A slab with a tower of three cells, a cube beside it, and a board that nothing is below; each
+  // of another height, so that all differ.
+  TriangleMesh mesh;
+  const auto put = [&](const Vec3d& from, const Vec3d& to) { append(mesh, makeBox({from, to})); };
+  put({0, 0, 0}, {7, 3, 1});
+  put({1.1, 1.1, 1}, {1.9, 1.9, 2.95});
+  put({1.2, 1.2, 2.95}, {1.8, 1.8, 3.9});
+  put({3.1, 1.1, 1}, {3.9, 1.9, 1.7});
+  put({5.1, 1.1, 3.2}, {5.9, 1.9, 3.4});
+  ModelPiecesOptions options;
+  options.box = Box3d{{0, 0, 0}, {7, 3, 4}};
+  const ModelPieces pieces = cutIntoPieces(mesh, options);
+  const auto nameAt = [&](int x, int y, int z) {
+    const std::string& name = pieces.grid.labels[pieces.grid.cells(x, y, z)].name;
+    return name.substr(0, name.find(' '));
+  };
+  EXPECT_EQ(nameAt(6, 1, 0), "ground");
+  EXPECT_EQ(nameAt(1, 1, 1), "wall");
+  EXPECT_EQ(nameAt(1, 1, 3), "roof");
+  EXPECT_EQ(nameAt(3, 1, 1), "low");
+  EXPECT_EQ(nameAt(5, 1, 3), "span");
 }
 
 TEST(ModelPieces, VertexColorsAndTextureCoordinatesTellPiecesApart) {

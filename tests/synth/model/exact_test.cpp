@@ -7,6 +7,7 @@
 
 #include <atomic>
 
+#include "synth/model/examples.h"
 #include "synth/model/networks.h"
 
 namespace exemplar {
@@ -49,6 +50,25 @@ TEST(ExactSolver, HasAsManySolutionsAsEnumerationFinds) {
     }
     EXPECT_EQ(found, countSolutions(a, size)) << trial;
   }
+}
+
+TEST(ExactSolver, EndsAfterSoManySteps) {
+  // Cells that must be decided one after another: a few steps do not do it, and what they left
+  // undecided can be gone on with.
+  const LabelGrid example = test::escheresque();
+  const Adjacency a = findAdjacency(example);
+  ModelOptions o;
+  o.size = {12, 12, 10};
+  const ModelProblem problem(a, o);
+  const LabelSets domains = problem.domains(problem.demands());
+  ExactSolver all(problem.network(), domains);
+  ASSERT_EQ(all.solve({}, 100000), Outcome::Complete);
+  ASSERT_GE(all.steps(), 20);
+  ExactSolver some(problem.network(), domains);
+  EXPECT_EQ(some.literals(), all.literals());
+  EXPECT_EQ(some.solve({}, 100000, {}, 5), Outcome::Unfinished);
+  EXPECT_LT(some.steps(), all.steps());
+  EXPECT_EQ(some.solve({}, 100000), Outcome::Complete);
 }
 
 TEST(ExactSolver, HearsCancellation) {

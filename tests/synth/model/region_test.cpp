@@ -168,6 +168,27 @@ TEST_F(PathsRegion, EachAttemptDrawsItsOwnNumbers) {
   EXPECT_EQ(again(), again());
 }
 
+TEST_F(PathsRegion, EndsWhereWorkWouldTakeMore) {
+  const auto cells = boxAt({4, 4, 0}, 10);
+  ASSERT_TRUE(region_.takeBack(cells, labels_));
+  RegionChoice choice = uniformly(5);
+  choice.fits = [] { return false; };  // every way is tried
+  RegionEffort effort;
+  effort.passes = effort.searches = 1000;
+  effort.work = 20'000;
+  const std::int64_t before = region_.counts().work;
+  EXPECT_EQ(region_.relabel(effort, choice), Outcome::Unfinished);
+  const std::int64_t took = region_.counts().work - before;
+  EXPECT_GE(took, effort.work / 2) << "it is used";
+  EXPECT_LE(took, 2 * effort.work) << "one attempt in order may be under way at its end";
+  EXPECT_EQ(region_.counts().exact, 0) << "a hundred cells are more literals than that";
+
+  effort.passes = effort.searches = 0;
+  effort.work = 50'000'000;
+  EXPECT_EQ(region_.relabel(effort, choice), Outcome::Unfinished);
+  EXPECT_EQ(region_.counts().exact, 1) << "where there is room, the exact solver is asked";
+}
+
 TEST_F(PathsRegion, RegionsThatDoNotTouchMayBeWorkedOnAtOnce) {
   // Two columns of regions, two cells apart, by one thread after another and by two at once.
   std::vector<Label> serial = labels_, parallel = labels_;

@@ -218,6 +218,49 @@ TEST(SynthesizeModel, TurnsToBlocksWhereTheWholeComesToNothing) {
   EXPECT_GT(inBlocks, 0);
 }
 
+TEST(SynthesizeModel, BlocksBeginWithATileThatHasRimsWhereSidesDiffer) {
+  // No tile repeats from a left to a right side that are not neighbors of each other; with a column
+  // of its own at each side one does.
+  const LabelGrid example = test::drawnFlat({"ltmmtr", "lmmmmr", "lmtmmr"});
+  ModelOptions o;
+  o.size = {40, 30, 1};
+  o.block = {6, 6, 2};
+  o.method = ModelMethod::Blocks;
+  const ModelResult r = synthesizeModel(example, o);
+  ASSERT_EQ(r.outcome, Outcome::Complete);
+  EXPECT_EQ(findViolations(r.grid(), example).count, 0);
+  EXPECT_FALSE(r.statistics.whole);
+  EXPECT_GT(r.statistics.blocks, 0);
+  EXPECT_EQ(r.statistics.repairs, 0);  // the whole was not labeled first
+  for (int y = 0; y < o.size.y; ++y) {
+    EXPECT_EQ(r.grid().cells(0, y, 0), example.cells(0, 0, 0));
+    EXPECT_EQ(r.grid().cells(o.size.x - 1, y, 0), example.cells(5, 0, 0));
+  }
+}
+
+TEST(SynthesizeModel, CountsWhatRepairsTakeAndEndsAlikeEverywhere) {
+  // Work is counted, not timed: the pass over the whole is left at the same cell by any number of
+  // threads, and blocks go on from there with the same bytes.
+  const LabelGrid example = test::escheresque();
+  int inBlocks = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    ModelOptions o;
+    o.size = {40, 40, 10};
+    o.seed = seed;
+    o.patience = 1;
+    ModelResult one, eight;
+    tbb::task_arena(1).execute([&] { one = synthesizeModel(example, o); });
+    tbb::task_arena(8).execute([&] { eight = synthesizeModel(example, o); });
+    ASSERT_EQ(one.outcome, Outcome::Complete);
+    EXPECT_EQ(one.grid().cells, eight.grid().cells);
+    EXPECT_EQ(one.statistics.repairs, eight.statistics.repairs);
+    EXPECT_EQ(one.statistics.whole, eight.statistics.whole);
+    EXPECT_EQ(findViolations(one.grid(), example).count, 0);
+    inBlocks += !one.statistics.whole;
+  }
+  EXPECT_GT(inBlocks, 0);
+}
+
 TEST(SynthesizeModel, BlocksBeginWithTheWholeWhereNoTileRepeats) {
   // Pins six cells apart are one cell of a tile of one, two or three cells, and want different
   // labels.
