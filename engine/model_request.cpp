@@ -227,6 +227,8 @@ const SettingTable<ModelSettings>& modelSettings() {
           "(Metropolis; Merrell 2007, section 4.2), not which labels are chosen"),
       settingRow<O>("budget", [](O & o) -> auto& { return o.options.budget; },
                     "conflicts that the exact solver may meet in one region", {1, 1e12}),
+      settingRow<O>("moves", [](O & o) -> auto& { return o.options.moves; }, "moves", {0, 10000}),
+      settingRow<O>("copy-price", [](O & o) -> auto& { return o.options.copyPrice; }, "price", {0, 1e6}),
       textsRow(
           "side", &O::side,
           "what may be at a side of the result: SIDE=example (the default), SIDE=free (that of "

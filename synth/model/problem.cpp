@@ -351,6 +351,7 @@ void ModelProblem::buildNetwork(const Progress& progress) {
   network_.cells = static_cast<int>(positionOf_.size());
   network_.slots = 2 * static_cast<int>(rules.offsets.size());
   network_.support = std::move(rules.support);
+  offsets_ = std::move(rules.offsets);
   network_.neighbor.assign(static_cast<std::size_t>(network_.cells) * network_.slots,
                            network_.cells);
 
@@ -359,7 +360,7 @@ void ModelProblem::buildNetwork(const Progress& progress) {
   for (int c = 0; c < network_.cells; ++c) {
     if (c % kCellsBetweenChecks == 0) progress.check();
     for (int s = 0; s < network_.slots; ++s) {
-      const CellOffset& o = rules.offsets[s / 2];
+      const CellOffset& o = offsets_[s / 2];
       const std::int64_t there = offsetPosition(positionOf_[c], s % 2 ? opposite(o) : o);
       if (there < 0 || cellOf_[there] < 0) continue;
       const int far = cellOf_[there];

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "synth/model/anneal.h"
 #include "synth/model/blocks.h"
 #include "synth/model/catalog.h"
 #include "synth/model/choose.h"
@@ -176,6 +177,9 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
     progress.report("counting neighbors in the example", 0.08);
     const LabelChooser chooser(problem, examples, progress);
     labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, 0.85));
+    if (labeling.outcome == Outcome::Complete && options.moves > 0) {
+      annealPatches(problem, base, chooser, examples, labeling.labels, result.statistics, progress.part(0.3, 0.85));
+    }
     if (labeling.outcome == Outcome::Complete) {
       labeling = meetLimits(problem, base, chooser, std::move(labeling.labels), result.statistics,
                             progress.part(0.85, 0.95));

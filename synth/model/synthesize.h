@@ -82,6 +82,9 @@ struct ModelOptions {
   Vec3i block{10, 10, 10};  ///< cells; each component >= 2; blocks overlap by half
   int rounds = 1;           ///< over all blocks, 1..100
 
+  double moves = 10;      ///< of patches, a column; 0: none
+  double copyPrice = 10;  ///< blocks
+
   std::array<SideRule, 6> sides;  ///< in the order of `Side`
   Axes periodic;      ///< the result tiles along these: its sides there meet and have no rule
   bool loop = false;  ///< the last frame is followed by the first
@@ -122,6 +125,7 @@ struct ModelStatistics {
   std::int64_t blocks = 0;          ///< modified, Blocks only
   std::int64_t blocksKept = 0;      ///< of these, left as they were
   std::int64_t exact = 0;           ///< calls of the exact solver
+  std::int64_t moves = 0, movesKept = 0;
   bool whole = true;                ///< in one pass; false: in blocks
 };
 
