@@ -26,6 +26,7 @@ enum Name : std::uint32_t {
   kBlockAccept = 0x4C424C32,  ///< whether a modified block is kept
   kLimits = 0x4C424C33,       ///< where a limit on counts or connectedness is worked on
   kPatchMoves = 0x4C424C34,   ///< which patch of the example goes where
+  kPatchRims = 0x4C424C36,    ///< which labels close the gap around a patch
   kPatchPlaces = 0x4C424C35,  ///< where patches go that are tried at once
   // measure
   kExampleWindows = 0x66706465,

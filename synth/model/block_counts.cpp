@@ -311,9 +311,12 @@ double BlockCounts::shift(std::int32_t id, int by) {
 }
 
 double BlockCounts::add(const Change& change) {
+  static const double w1 = getenv("W1") ? atof(getenv("W1")) : 1, w2 = getenv("W2") ? atof(getenv("W2")) : 1;
   double more = 0;
   for (const auto& list : change.touched) {
-    for (const Touched& t : list) more += shift(t.before, -1) + shift(t.now, 1);
+    double here = 0;
+    for (const Touched& t : list) here += shift(t.before, -1) + shift(t.now, 1);
+    more += here * (&list == &change.touched[0] ? w1 : &list == &change.touched[1] ? w2 : 1);
   }
   return more;
 }

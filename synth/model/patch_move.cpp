@@ -9,82 +9,107 @@
 namespace exemplar {
 namespace {
 
+/// More than this is not one patch any more.
+constexpr int kMostChanged = 2000;        // cells
+constexpr std::size_t kMostConflicts = 100;
+constexpr std::size_t kMostInRim = 1000;  // cells
+/// Wrong choices in the search for a rim's labels: those that are found at all are found soon.
+constexpr std::int64_t kRimConflicts = 20;
+
+int wrapped(int i, int n) { return ((i % n) + n) % n; }
+
 /// The shorter way around.
 int wrappedStep(int step, int n, bool periodic) {
   if (!periodic) return step;
-  step = ((step % n) + n) % n;
+  step = wrapped(step, n);
   return 2 * step > n ? step - n : step;
 }
 
 }  // namespace
 
 PatchMove::PatchMove(const ModelProblem& problem, const LabelSets& base,
-                     std::span<const PatchSource> sources)
+                     const LabelChooser& chooser, std::span<const PatchSource> sources)
     : problem_(problem),
       network_(problem.network()),
       base_(base),
+      chooser_(chooser),
       sources_(sources),
+      region_(problem.network(), base),
       images_(problem.options().symmetry.any()) {}
 
 std::size_t PatchMove::local(const Vec3i& step, int frameStep) const {
   const ModelOptions& o = problem_.options();
   const int wide = 2 * window_.reach + 1;
-  const int z = ((window_.center.z + step.z) % o.size.z + o.size.z) % o.size.z;
-  const int t = ((window_.frame + frameStep) % o.frames + o.frames) % o.frames;
-  return ((static_cast<std::size_t>(step.x + window_.reach) * wide + (step.y + window_.reach)) *
-              o.size.z +
-          z) *
-             o.frames +
-         t;
+  int z = window_.center.z + step.z, t = window_.frame + frameStep;
+  if (z < 0 || z >= o.size.z) z = wrapped(z, o.size.z);
+  if (t < 0 || t >= o.frames) t = wrapped(t, o.frames);
+  const int column = (step.x + window_.reach) * wide + (step.y + window_.reach);
+  return (static_cast<std::size_t>(column) * o.size.z + z) * o.frames + t;
 }
 
-/// Adds a cell to the set, if it is not in it: Impossible where it cannot have the source's label.
-PatchMove::Added PatchMove::add(std::int32_t cell, const Vec3i& step, int frameStep) {
-  if (step.x < grown_.begin.x || step.x >= grown_.end.x || step.y < grown_.begin.y || step.y >= grown_.end.y)
-    return Added::Impossible;
-  const std::size_t here = local(step, frameStep);
-  if (stamp_[here] == now_) return Added::No;
+bool PatchMove::inGrown(const Vec3i& step) const {
+  const CellBox& g = patch_.grown;
+  return step.x >= g.begin.x && step.x < g.end.x && step.y >= g.begin.y && step.y < g.end.y;
+}
+
+Label PatchMove::sourceLabel(const Vec3i& step, int frameStep) const {
   const PatchSource& source = sources_[alignment_.source];
   const Vec3i from = alignment_.cell + step;
   const int frame = alignment_.frame + frameStep;
-  if (!source.contains(from, frame)) return Added::Impossible;
-  const Label label = source.at(from, frame);
-  if (label >= network_.labels || !containsLabel(base_[cell], label)) return Added::Impossible;
-  if (label != labels_[cell] && ++changed_ > most_) return Added::Impossible;
+  return source.contains(from, frame) ? source.at(from, frame) : SymmetryGroup::kNoImage;
+}
+
+/// Lets a cell take the source's label, or finds a conflict there.
+void PatchMove::add(std::int32_t cell, const Vec3i& step, int frameStep) {
+  const Label label = sourceLabel(step, frameStep);
+  if (label >= network_.labels || !containsLabel(base_[cell], label)) {
+    conflicts_.emplace_back(step, frameStep);
+    return;
+  }
+  const std::size_t here = local(step, frameStep);
+  changed_ += label != labels_[cell];
   stamp_[here] = now_;
   member_[here] = static_cast<std::uint32_t>(members_.size());
   members_.push_back({cell, label, step, frameStep});
-  return Added::Yes;
 }
 
-/// Looks across one link: what stands there must suit, or comes along.
-bool PatchMove::reach(std::int32_t to, int relation, Label label, const Vec3i& step,
-                      int frameStep) {
+/// Looks across one link of a cell that takes the source's `label`.
+void PatchMove::across(std::int32_t to, int relation, Label label, const Vec3i& step,
+                       int frameStep) {
   const auto allowed = network_.support[relation][label];
-  if (std::abs(step.x) <= window_.reach && std::abs(step.y) <= window_.reach) {
+  const bool in = inGrown(step);
+  if (in) {
     const std::size_t there = local(step, frameStep);
     if (stamp_[there] == now_) {
-      if (!containsLabel(allowed, members_[member_[there]].label)) conflicts_.push_back({to, 0, step, frameStep});
-      return true;
+      // Of a source that the request does not suit two labels may exclude each other.
+      if (!containsLabel(allowed, members_[member_[there]].label))
+        conflicts_.emplace_back(step, frameStep);
+      return;
     }
   }
-  if (containsLabel(allowed, labels_[to])) return true;
-  if (add(to, step, frameStep) == Added::Impossible || !containsLabel(allowed, members_.back().label))
-    conflicts_.push_back({to, 0, step, frameStep});
-  return true;
+  if (containsLabel(allowed, labels_[to])) return;
+  if (!in) {
+    conflicts_.emplace_back(step, frameStep);
+    return;
+  }
+  const std::size_t before = members_.size();
+  add(to, step, frameStep);
+  if (members_.size() > before && !containsLabel(allowed, members_.back().label))
+    conflicts_.emplace_back(step, frameStep);
 }
 
-bool PatchMove::follow(std::size_t number) {
+void PatchMove::stepTo(std::int32_t cell, Vec3i& step, int& frameStep) const {
+  const ModelOptions& o = problem_.options();
+  const std::int64_t at = problem_.positionOf(cell);
+  const Vec3i d = problem_.cellAt(at) - window_.center;
+  for (int axis = 0; axis < 3; ++axis)
+    step[axis] = wrappedStep(d[axis], o.size[axis], o.periodic[axis]);
+  frameStep = wrappedStep(problem_.frameAt(at) - window_.frame, o.frames, o.loop);
+}
+
+void PatchMove::follow(std::size_t number) {
   const Member member = members_[number];
   const auto near = network_.neighbors(member.cell);
-  const auto stepTo = [&](std::int32_t cell, Vec3i& step, int& frameStep) {
-    const ModelOptions& o = problem_.options();
-    const std::int64_t at = problem_.positionOf(cell);
-    const Vec3i d = problem_.cellAt(at) - window_.center;
-    for (int axis = 0; axis < 3; ++axis)
-      step[axis] = wrappedStep(d[axis], o.size[axis], o.periodic[axis]);
-    frameStep = wrappedStep(problem_.frameAt(at) - window_.frame, o.frames, o.loop);
-  };
   for (int s = 0; s < network_.slots; ++s) {
     const std::int32_t n = near[s];
     if (n == network_.cells) continue;
@@ -93,56 +118,144 @@ bool PatchMove::follow(std::size_t number) {
     Vec3i step = member.step + Vec3i{o.x, o.y, o.z} * sign;
     int frameStep = member.frameStep + o.t * sign;
     if (images_) stepTo(n, step, frameStep);
-    if (!reach(n, s, member.label, step, frameStep)) return false;
+    across(n, s, member.label, step, frameStep);
   }
   for (const LabelNetwork::Link& l : network_.linksOf(member.cell)) {
     Vec3i step;
     int frameStep = 0;
     stepTo(l.cell, step, frameStep);
-    if (!reach(l.cell, l.relation, member.label, step, frameStep)) return false;
+    across(l.cell, l.relation, member.label, step, frameStep);
   }
+}
+
+void PatchMove::findMembers() {
+  const ModelOptions& o = problem_.options();
+  members_.clear();
+  conflicts_.clear();
+  changed_ = 0;
+  const std::size_t wide = 2 * static_cast<std::size_t>(window_.reach) + 1;
+  const std::size_t places = wide * wide * o.size.z * o.frames;
+  if (places > stamp_.size() || ++now_ == 0) {
+    stamp_.assign(places, 0);
+    member_.resize(places);
+    now_ = 1;
+  }
+  Vec3i step;
+  const CellBox& core = patch_.core;
+  for (step.x = core.begin.x; step.x < core.end.x; ++step.x) {
+    for (step.y = core.begin.y; step.y < core.end.y; ++step.y) {
+      for (step.z = core.begin.z; step.z < core.end.z; ++step.z) {
+        if (sourceLabel(step, 0) == SymmetryGroup::kNoImage) continue;
+        Vec3i p = window_.center + step;
+        bool inside = true;
+        for (int axis = 0; axis < 3; ++axis) {
+          if (o.periodic[axis]) p[axis] = wrapped(p[axis], o.size[axis]);
+          inside = inside && p[axis] >= 0 && p[axis] < o.size[axis];
+        }
+        if (!inside) continue;
+        const std::int64_t at = problem_.position(p, window_.frame);
+        const std::int32_t cell = problem_.cell(at);
+        if (cell < 0 || (images_ && problem_.positionOf(cell) != at)) continue;
+        if (stamp_[local(step, 0)] != now_) add(cell, step, 0);
+      }
+    }
+  }
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (changed_ > kMostChanged || conflicts_.size() > kMostConflicts) return;
+    follow(m);
+  }
+}
+
+/// The cells near conflicts, ascending.
+void PatchMove::findRim() {
+  const ModelOptions& o = problem_.options();
+  rim_.clear();
+  marked_.assign(stamp_.size(), 0);
+  const int wide = 2 * window_.reach + 1, rim = patch_.rim;
+  Vec3i low{wide, wide, o.size.z}, high{0, 0, 0};
+  for (const auto& [step, frameStep] : conflicts_) {
+    const Vec3i c{step.x + window_.reach, step.y + window_.reach, window_.center.z + step.z};
+    for (int x = std::max(c.x - rim, 0); x <= std::min(c.x + rim, wide - 1); ++x) {
+      for (int y = std::max(c.y - rim, 0); y <= std::min(c.y + rim, wide - 1); ++y) {
+        for (int k = c.z - rim; k <= c.z + rim; ++k) {
+          if (!o.periodic.z && (k < 0 || k >= o.size.z)) continue;
+          const int z = wrapped(k, o.size.z);
+          marked_[(static_cast<std::size_t>(x) * wide + y) * o.size.z + z] = 1;
+          low = min(low, {x, y, z});
+          high = max(high, {x + 1, y + 1, z + 1});
+        }
+      }
+    }
+  }
+  for (int x = low.x; x < high.x; ++x) {
+    for (int y = low.y; y < high.y; ++y) {
+      for (int z = low.z; z < high.z; ++z) {
+        if (!marked_[(static_cast<std::size_t>(x) * wide + y) * o.size.z + z]) continue;
+        Vec3i p{window_.center.x + x - window_.reach, window_.center.y + y - window_.reach, z};
+        if (o.periodic.x) p.x = wrapped(p.x, o.size.x);
+        if (o.periodic.y) p.y = wrapped(p.y, o.size.y);
+        if (p.x < 0 || p.y < 0 || p.x >= o.size.x || p.y >= o.size.y) continue;
+        for (int t = 0; t < o.frames; ++t) {
+          const int cell = problem_.cell(problem_.position(p, t));
+          if (cell >= 0) rim_.push_back(cell);
+        }
+      }
+    }
+  }
+  if (images_ || o.periodic.any()) {
+    std::sort(rim_.begin(), rim_.end());
+    rim_.erase(std::unique(rim_.begin(), rim_.end()), rim_.end());
+  }
+}
+
+bool PatchMove::closeRim(const Random& random, std::vector<Before>& before,
+                         const Progress& progress) {
+  findRim();
+  if (rim_.empty() || rim_.size() > kMostInRim) return false;
+  if (!region_.takeBack(rim_, labels_, progress)) return false;
+  RegionChoice choice{random};
+  choice.choose = [&](const Random& numbers, int cell, std::span<const LabelWord> set, int draw) {
+    // That is the source's where it could be put in.
+    if (containsLabel(set, labels_[cell])) return static_cast<int>(labels_[cell]);
+    Vec3i step;
+    int frameStep = 0;
+    stepTo(cell, step, frameStep);
+    const Label shown = sourceLabel(step, frameStep);
+    if (shown < network_.labels && containsLabel(set, shown)) return static_cast<int>(shown);
+    return chooser_.choose(numbers, cell, set, draw, region_.placed());
+  };
+  const RegionEffort effort{
+      .passes = 0, .searches = 1, .searchConflicts = kRimConflicts, .exactConflicts = 0};
+  if (region_.relabel(effort, choice, progress) != exemplar::Outcome::Complete) return false;
+  for (int i = 0; i < region_.count(); ++i) {
+    const int cell = region_.cells()[i];
+    if (region_.label(i) != labels_[cell]) before.push_back({cell, labels_[cell]});
+  }
+  region_.keep(labels_);
   return true;
 }
 
-bool PatchMove::close(const Window& window, const Alignment& alignment, const CellBox& core,
-                      const CellBox& grown, std::span<const Label> labels, int most) {
-  grown_ = grown;
-  conflicts_.clear();
-  const ModelOptions& o = problem_.options();
+PatchMove::Outcome PatchMove::make(const Window& window, const Alignment& alignment,
+                                   const Patch& patch, const Random& random,
+                                   std::span<Label> labels, std::vector<Before>& before,
+                                   const Progress& progress) {
   window_ = window;
   alignment_ = alignment;
+  patch_ = patch;
   labels_ = labels;
-  changed_ = 0;
-  most_ = most;
-  members_.clear();
-  const std::size_t wide = 2 * static_cast<std::size_t>(window.reach) + 1;
-  const std::size_t places = wide * wide * o.size.z * o.frames;
-  if (places > stamp_.size()) {
-    stamp_.assign(places, 0);
-    member_.resize(places);
-    now_ = 0;
+  before.clear();
+  findMembers();
+  if (changed_ == 0 || changed_ > kMostChanged) return Outcome::Nothing;
+  if (conflicts_.size() > kMostConflicts) return Outcome::Conflict;
+  for (const Member& m : members_) {
+    if (labels_[m.cell] == m.label) continue;
+    before.push_back({m.cell, labels_[m.cell]});
+    labels_[m.cell] = m.label;
   }
-  if (++now_ == 0) {
-    std::fill(stamp_.begin(), stamp_.end(), 0);
-    now_ = 1;
-  }
-  const PatchSource& source = sources_[alignment.source];
-  bool possible = true;
-  forEachCell(core, [&](const Vec3i& step) {
-    if (!possible || !source.contains(alignment.cell + step, alignment.frame)) return;
-    Vec3i p = window.center + step;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int n = o.size[axis];
-      if (o.periodic[axis]) p[axis] = ((p[axis] % n) + n) % n;
-      if (p[axis] < 0 || p[axis] >= n) return;
-    }
-    const std::int64_t at = problem_.position(p, window.frame);
-    const std::int32_t cell = problem_.cell(at);
-    if (cell < 0 || (images_ && problem_.positionOf(cell) != at)) return;
-    add(cell, step, 0);
-  });
-  for (std::size_t m = 0; possible && m < members_.size(); ++m) possible = follow(m) && changed_ <= most_ && conflicts_.size() < 200;
-  return possible && changed_ > 0;
+  if (conflicts_.empty() || closeRim(random, before, progress)) return Outcome::Made;
+  for (const Before& b : before) labels_[b.cell] = b.label;
+  before.clear();
+  return Outcome::Conflict;
 }
 
 }  // namespace exemplar

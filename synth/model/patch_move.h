@@ -5,27 +5,32 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/cells.h"
+#include "synth/model/choose.h"
 #include "synth/model/patch_sources.h"
 #include "synth/model/problem.h"
+#include "synth/model/region.h"
 
 namespace exemplar {
 
-/// A piece of an example put into a consistent labeling so that it stays consistent, found without
-/// search: the smallest set of cells that holds a core, and across whose border every label of the
-/// example may stand beside the label in place.
+/// A patch of an example put into a consistent labeling so that it stays consistent.
 ///
-/// Putting in a source at one alignment is a binary choice for each cell, the label in place or the
-/// source's. Both labelings are consistent, so a pair of neighbors is at fault only where the choice
-/// changes between them: the hard constraints of an expansion move (Boykov, Veksler, Zabih: "Fast
-/// approximate energy minimization via graph cuts", PAMI 23(11), 2001; for shifts of an example:
-/// Pritch, Kav-Venaki, Peleg, "Shift-map image editing", ICCV 2009) are implications, "if this cell
-/// takes the source's label, so does its neighbor". What follows from the core is their least
-/// solution. An object whose cells cannot stand beside air comes, or goes, as a whole.
+/// At one alignment of example and result each cell has two candidates, the label in place and the
+/// example's. Both labelings are consistent, so a pair of neighbors is at fault only where the
+/// choice changes between them: the hard constraints of an expansion move (Boykov, Veksler, Zabih:
+/// "Fast approximate energy minimization via graph cuts", PAMI 23(11), 2001; for shifts of an
+/// example: Pritch, Kav-Venaki, Peleg, "Shift-map image editing", ICCV 2009) are implications, "if
+/// this cell takes the example's label, so must its neighbor". From the core of the patch they are
+/// followed to the border of a box; an object whose cells cannot stand beside air comes, or goes, as
+/// a whole. Mostly nothing is at fault then, and nothing had to be searched. What is, is a conflict:
+/// the cells around it are a `Region`, set free and labeled by search, the label in place first,
+/// then the example's. Where that does not succeed nothing changes.
 ///
-/// Deterministic. One thread at a time; memory is that of the window.
+/// Deterministic. One thread at a time; threads may make moves in one labeling at once where their
+/// windows are further apart than the network's neighbors. Memory: a region and the window.
 class PatchMove {
  public:
   /// Where cells may change: the columns up to `reach` from `center`, at all heights and frames.
@@ -40,48 +45,70 @@ class PatchMove {
     Vec3i cell;
     int frame = 0;
   };
-  struct Member {
-    std::int32_t cell;  ///< of the network
-    Label label;        ///< the source's
-    Vec3i step;         ///< from the window's center
-    int frameStep;
+  /// All in steps from the center.
+  struct Patch {
+    CellBox core;   ///< takes the source's labels where there are any
+    CellBox grown;  ///< how far implications are followed; within the window, and holds the core
+    int rim = 1;    ///< how far around a conflict cells are set free, >= 0
+  };
+  struct Before {
+    std::int32_t cell;
+    Label label;
   };
 
   /// `base` holds the labels that the request leaves each cell. All must outlive the move.
-  PatchMove(const ModelProblem& problem, const LabelSets& base,
+  PatchMove(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
             std::span<const PatchSource> sources);
 
-  /// Finds the set for the cells of `core` (steps from the center) that the grid and the source
-  /// have. False where it leaves the window or the source, needs a label that the request forbids,
-  /// or changes more than `most` cells or none. O(cells of the set × slots).
-  bool close(const Window& window, const Alignment& alignment, const CellBox& core,
-             const CellBox& grown, std::span<const Label> labels, int most);
-
-  /// The set; some of its cells may have the source's label already.
-  std::span<const Member> members() const { return members_; }
-  std::span<const Member> conflicts() const { return conflicts_; }
+  enum class Outcome {
+    Made,      ///< `labels` is changed, and consistent
+    Nothing,   ///< nothing would change, or too much
+    Conflict,  ///< it cannot be put in, or not found out how
+  };
+  /// Puts a patch in. `before` has what the cells that change held, in the order in which they
+  /// did; a cell may change twice.
+  Outcome make(const Window& window, const Alignment& alignment, const Patch& patch,
+               const Random& random, std::span<Label> labels, std::vector<Before>& before,
+               const Progress& progress = {});
 
  private:
-  enum class Added { Yes, No, Impossible };
-  Added add(std::int32_t cell, const Vec3i& step, int frameStep);
+  struct Member {
+    std::int32_t cell;
+    Label label;  // the source's
+    Vec3i step;   // from the center
+    int frameStep;
+  };
+
+  void add(std::int32_t cell, const Vec3i& step, int frameStep);
   std::size_t local(const Vec3i& step, int frameStep) const;
-  bool follow(std::size_t member);
-  bool reach(std::int32_t to, int relation, Label label, const Vec3i& step, int frameStep);
+  bool inGrown(const Vec3i& step) const;
+  void stepTo(std::int32_t cell, Vec3i& step, int& frameStep) const;
+  void follow(std::size_t member);
+  void across(std::int32_t to, int relation, Label label, const Vec3i& step, int frameStep);
+  void findMembers();
+  void findRim();
+  bool closeRim(const Random& random, std::vector<Before>& before, const Progress& progress);
+  Label sourceLabel(const Vec3i& step, int frameStep) const;
 
   const ModelProblem& problem_;
   const LabelNetwork& network_;
   const LabelSets& base_;
+  const LabelChooser& chooser_;
   std::span<const PatchSource> sources_;
+  Region region_;
   bool images_;  // whether cells stand for several positions
+
   Window window_;
   Alignment alignment_;
-  std::span<const Label> labels_;
-  int changed_ = 0, most_ = 0;
-  CellBox grown_;
-  std::vector<Member> members_, conflicts_;
-  std::vector<std::uint32_t> member_;  // of each place in the window: stamp and number
-  std::vector<std::uint32_t> stamp_;
+  Patch patch_;
+  std::span<Label> labels_;
+  int changed_ = 0;
+  std::vector<Member> members_;
+  std::vector<std::pair<Vec3i, int>> conflicts_;
+  std::vector<std::uint32_t> member_, stamp_;  // of each place in the window
   std::uint32_t now_ = 0;
+  std::vector<std::uint8_t> marked_;
+  std::vector<std::int32_t> rim_;
 };
 
 }  // namespace exemplar

