@@ -32,7 +32,9 @@ Statistics statisticsOf(const ModelResult& made, const Example& example, const V
           {"repairs", s.repairs},
           {"blocks", s.blocks},
           {"blocks_kept", s.blocksKept},
-          {"exact_solver_calls", s.exact}};
+          {"exact_solver_calls", s.exact},
+          {"moves", s.moves},
+          {"moves_kept", s.movesKept}};
 }
 
 /// Refuses settings of a method that is not the one.

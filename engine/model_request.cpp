@@ -227,8 +227,17 @@ const SettingTable<ModelSettings>& modelSettings() {
           "(Metropolis; Merrell 2007, section 4.2), not which labels are chosen"),
       settingRow<O>("budget", [](O & o) -> auto& { return o.options.budget; },
                     "conflicts that the exact solver may meet in one region", {1, 1e12}),
-      settingRow<O>("moves", [](O & o) -> auto& { return o.options.moves; }, "moves", {0, 10000}),
-      settingRow<O>("copy-price", [](O & o) -> auto& { return o.options.copyPrice; }, "price", {0, 1e6}),
+      settingRow<O>(
+          "moves", [](O & o) -> auto& { return o.options.moves; },
+          "patches of the example that are tried in each column of the result once it is labeled; "
+          "one is kept if blocks of 1, 2 and 3 cells a side then occur more nearly as often as in "
+          "the example; 0: none",
+          {0, 10000}),
+      settingRow<O>(
+          "copy-price", [](O & o) -> auto& { return o.options.copyPrice; },
+          "what a window of 8 x 8 columns costs that stands verbatim in the example, in blocks "
+          "that occur too often; 0: copies are as good as anything",
+          {0, 1e6}),
       textsRow(
           "side", &O::side,
           "what may be at a side of the result: SIDE=example (the default), SIDE=free (that of "

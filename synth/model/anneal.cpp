@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include "core/parallel.h"
@@ -21,13 +20,24 @@
 namespace exemplar {
 namespace {
 
-double env(const char* name, double value) {
-  const char* text = std::getenv(name);
-  return text ? std::atof(text) : value;
-}
-const int kReach = (int)env("REACH", 10), kCore0 = (int)env("CORE", 12), kCore1 = (int)env("CORE1", 6),
-          kNarrow = (int)env("NARROW", 8), kGrow = (int)env("GROW", 4), kRim = (int)env("RIM", 3), kJitter = (int)env("JIT", 3), kLook = (int)env("LOOK", 4);
-const double kHot = env("HOT", 8), kRamp = env("RAMP", 1000), kPart = env("PART", 4);
+/// Columns around a move's center that may change, and how far the center may be shifted.
+constexpr int kReach = 11, kShift = 3;
+/// How long cores are at most, in columns: first, and at last; and how wide.
+constexpr int kLongest = 14, kLongestAtLast = 6, kWidest = 8;
+/// How long they are at least, first: small patches alone would not begin anything large.
+constexpr int kShortest = 7;
+/// How far implications are followed at most, and how wide a rim is, in cells.
+constexpr int kGrow = 4, kRim = 3;
+/// One core in so many has a part of the height only.
+constexpr int kLow = 4;
+/// Columns looked at to find one where the example is not met.
+constexpr int kLooks = 4;
+/// The temperature at first, in blocks; at last it is 0.
+constexpr double kHot = 20;
+/// How much worse a patch may seem while its rim is open.
+constexpr double kSlack = 100;
+/// Blocks that a label is worth where a map makes it e times as probable.
+constexpr double kMapWeight = 3;
 
 class PatchAnnealing {
  public:
@@ -50,6 +60,7 @@ class PatchAnnealing {
   std::vector<Vec3i> centers(Draws& draws) const;
   void propose(Proposal& proposal, std::uint64_t number, const Vec3i& place);
   Vec3i worst(Draws& draws, const Vec3i& place) const;
+  double gainByMaps(const Proposal& proposal) const;
   void show(Proposal& proposal);
   void takeBack(const Proposal& proposal);
   bool weigh(const Proposal& proposal);
@@ -112,7 +123,7 @@ std::vector<Vec3i> PatchAnnealing::centers(Draws& draws) const {
   int apart = 3;
   for (const CellOffset& o : problem_.offsets())
     apart = std::max({apart, std::abs(o.x) + 1, std::abs(o.y) + 1});
-  const int pitch = 2 * (kReach + kJitter) + apart;
+  const int pitch = 2 * (kReach + kShift) + apart;
   std::array<std::vector<int>, 2> along;
   for (int axis = 0; axis < 2; ++axis) {
     const int n = options_.size[axis];
@@ -136,8 +147,8 @@ std::vector<Vec3i> PatchAnnealing::centers(Draws& draws) const {
 Vec3i PatchAnnealing::worst(Draws& draws, const Vec3i& place) const {
   Vec3i best = place;
   double most = 0;
-  for (int i = 0; i < kLook; ++i) {
-    Vec3i p{place.x + draws.between(-kJitter, kJitter), place.y + draws.between(-kJitter, kJitter),
+  for (int i = 0; i < kLooks; ++i) {
+    Vec3i p{place.x + draws.between(-kShift, kShift), place.y + draws.between(-kShift, kShift),
             draws.below(options_.size.z)};
     bool inside = true;
     for (int axis = 0; axis < 2; ++axis) {
@@ -147,8 +158,7 @@ Vec3i PatchAnnealing::worst(Draws& draws, const Vec3i& place) const {
     }
     if (!inside) continue;
     const std::int32_t block = counts_.blockAt(problem_.position(p));
-    const double bad =
-        block == BlockCounts::kUnknown ? 2 : counts_.surplus(block) > 0.5 ? 1 : 0.5;
+    const double bad = block == BlockCounts::kUnknown ? 2 : counts_.surplus(block) > 0.5 ? 1 : 0.5;
     if (bad <= most) continue;
     most = bad;
     best = {p.x, p.y, 0};
@@ -164,28 +174,51 @@ void PatchAnnealing::propose(Proposal& proposal, std::uint64_t number, const Vec
     if (options_.periodic[axis])
       window.reach = std::max(1, std::min(window.reach, (options_.size[axis] - 1) / 2));
   }
-  const int largest = static_cast<int>(std::lround(kCore0 + (kCore1 - kCore0) * done_));
-  int a = draws.between(1, largest), b = draws.between(1, std::min(largest, kNarrow));
+  const int most = static_cast<int>(std::lround(kLongest + (kLongestAtLast - kLongest) * done_));
+  const int least = std::max(1, static_cast<int>(kShortest * (1 - done_)));
+  int a = draws.between(least, most), b = draws.between(least, std::min(most, kWidest));
   if (draws.below(2)) std::swap(a, b);
   PatchMove::Patch patch;
   patch.core = {{-(a / 2), -(b / 2), 0}, {a - a / 2, b - b / 2, options_.size.z}};
-  if (draws.uniform() * kPart < 1) {
+  if (draws.below(kLow) == 0) {
     patch.core.begin.z = draws.below(options_.size.z);
-    patch.core.end.z =
-        patch.core.begin.z + draws.between(1, options_.size.z - patch.core.begin.z);
+    patch.core.end.z = patch.core.begin.z + draws.between(1, options_.size.z - patch.core.begin.z);
   }
   const int inner = window.reach - 1;
-  const CellBox most{{-inner, -inner, -options_.size.z}, {inner + 1, inner + 1, options_.size.z}};
-  patch.core = patch.core & most;
-  patch.grown = patch.core.grown(draws.between(0, kGrow)) & most;
+  const CellBox box{{-inner, -inner, -options_.size.z}, {inner + 1, inner + 1, options_.size.z}};
+  patch.core = patch.core & box;
+  patch.grown = patch.core.grown(draws.between(0, kGrow)) & box;
   patch.rim = draws.between(1, kRim);
   proposal.threshold = -temperature_ * std::log(1 - draws.uniform());
   proposal.outcome = PatchMove::Outcome::Nothing;
   const auto alignment = alignments_.find(draws, window, patch.core, grid_);
   if (!alignment) return;
+  const auto worth = [&] {
+    show(proposal);
+    for (const auto& c : proposal.changed) grid_[problem_.position(c.cell, c.frame)] = c.before;
+    return counts_.estimate(proposal.blocks) <= proposal.threshold + kSlack;
+  };
   proposal.outcome = moves_.local().make(window, *alignment, patch, rims_.fork(number), labels_,
-                                         proposal.before, progress_);
-  if (proposal.outcome == PatchMove::Outcome::Made) show(proposal);
+                                         proposal.before, worth, progress_);
+  if (proposal.outcome != PatchMove::Outcome::Made) return;
+  show(proposal);
+  if (proposal.changed.empty()) {
+    takeBack(proposal);  // a cell that changed twice may be what it was
+    proposal.outcome = PatchMove::Outcome::Nothing;
+  }
+  if (problem_.weightVaries()) proposal.threshold += kMapWeight * gainByMaps(proposal);
+}
+
+/// Log of how much more the user's maps want what is there now.
+double PatchAnnealing::gainByMaps(const Proposal& proposal) const {
+  double gain = 0;
+  for (const auto& c : proposal.changed) {
+    const int cell = problem_.cell(problem_.position(c.cell, c.frame));
+    if (c.before >= problem_.network().labels) continue;
+    gain +=
+        std::log(problem_.weight(cell, labels_[cell])) - std::log(problem_.weight(cell, c.before));
+  }
+  return gain;
 }
 
 /// Shows the changed labels in the grid, and finds out which blocks they touch.
@@ -223,8 +256,7 @@ void PatchAnnealing::takeBack(const Proposal& proposal) {
 bool PatchAnnealing::weigh(const Proposal& proposal) {
   double more = counts_.add(proposal.blocks);
   if (more <= proposal.threshold && options_.copyPrice > 0) {
-    more += options_.copyPrice * std::min(1.0, done_ * kRamp) *
-            copies_.look(grid_, proposal.low, proposal.high, copied_);
+    more += options_.copyPrice * copies_.look(grid_, proposal.low, proposal.high, copied_);
   }
   if (more > proposal.threshold) {
     counts_.takeOut(proposal.blocks);
@@ -243,8 +275,6 @@ void PatchAnnealing::run(ModelStatistics& statistics) {
   const auto total = static_cast<std::uint64_t>(columns * options_.moves);
   const Random places(options_.seed, stream::kPatchPlaces);
   std::vector<Proposal> proposals;
-  std::int64_t why[3] = {}, kept = 0;
-  const double before = counts_.energy();
   std::uint64_t number = 0;
   for (std::uint64_t batch = 0; number < total; ++batch) {
     done_ = double(number) / double(total);
@@ -258,18 +288,11 @@ void PatchAnnealing::run(ModelStatistics& statistics) {
     });
     number += at.size();
     for (std::size_t i = 0; i < at.size(); ++i) {
-      ++why[(int)proposals[i].outcome];
-      if (proposals[i].outcome == PatchMove::Outcome::Made && weigh(proposals[i])) ++kept;
+      if (proposals[i].outcome == PatchMove::Outcome::Made && weigh(proposals[i]))
+        ++statistics.movesKept;
     }
   }
   statistics.moves = static_cast<std::int64_t>(number);
-  statistics.movesKept = kept;
-  if (std::getenv("TALK"))
-    std::fprintf(stderr,
-                 "moves %lld made %lld nothing %lld conflict %lld kept %lld energy %.0f -> %.0f "
-                 "copies %lld\n",
-                 (long long)number, (long long)why[0], (long long)why[1], (long long)why[2],
-                 (long long)kept, before, counts_.energy(), (long long)copies_.copies());
 }
 
 }  // namespace

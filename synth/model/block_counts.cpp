@@ -27,7 +27,9 @@ double ratioAlong(int place, int from, int to, bool sides) {
 
 /// What the user's weights make of the number of blocks that hold these labels: the weight that is
 /// furthest from 1 counts.
-double weightOf(double a, double b) { return std::abs(std::log(a)) > std::abs(std::log(b)) ? a : b; }
+double weightOf(double a, double b) {
+  return std::abs(std::log(a)) > std::abs(std::log(b)) ? a : b;
+}
 
 }  // namespace
 
@@ -44,9 +46,10 @@ BlockCounts::BlockCounts(const ModelProblem& problem, std::span<const PatchSourc
   }
   for (int side = 0; side < kSides; ++side) {
     shape_[side] = min(most, Vec3i{side + 1, side + 1, side + 1});
-    for (int i = 0; i < volume(shape_[side]); ++i) {
-      factor_[side].push_back(mixed(0x10000u * (side + 1) + i) | 1);
-    }
+    for (int i = 0; i < shape_[side].x * shape_[side].y; ++i)
+      across_[side].push_back(mixed(0x10000u * (side + 1) + i) | 1);
+    for (int i = 0; i < shape_[side].z; ++i)
+      up_[side].push_back(mixed(0x20000u * (side + 1) + i) | 1);
     for (int axis = 0; axis < 3; ++axis) {
       places1_[side][axis] = periodic_[axis] ? size_[axis] : size_[axis] - shape_[side][axis] + 1;
     }
@@ -55,21 +58,52 @@ BlockCounts::BlockCounts(const ModelProblem& problem, std::span<const PatchSourc
   countSources(sources, progress);
 }
 
-std::uint64_t BlockCounts::hashAt(int side, const Label* lowest, std::int64_t sx, std::int64_t sy,
-                                  std::int64_t sz) const {
-  const Vec3i n = shape_[side];
-  const std::uint64_t* factor = factor_[side].data();
+/// Of `layers` layers from `p` up (around, where the grid is periodic): the sum over the layer's
+/// cells of a block.
+void BlockCounts::sumLayers(int side, std::span<const Label> grid, const Vec3i& p, int frame,
+                            int layers, std::vector<std::uint64_t>& sums) const {
+  sums.assign(static_cast<std::size_t>(layers), 0);
   const std::size_t none = code_.size() - 1;
+  const Vec3i n = shape_[side];
+  const std::uint64_t* factor = across_[side].data();
+  for (int x = p.x; x < p.x + n.x; ++x) {
+    for (int y = p.y; y < p.y + n.y; ++y) {
+      const int qx = x < size_.x ? x : x - size_.x, qy = y < size_.y ? y : y - size_.y;
+      const Label* column = grid.data() + problem_->position({qx, qy, 0}, frame);
+      for (int i = 0, z = p.z; i < layers; ++i, ++z) {
+        if (z == size_.z) z = 0;
+        const std::size_t label = column[static_cast<std::int64_t>(z) * frames_];
+        sums[i] += code_[std::min(label, none)] * *factor;
+      }
+      ++factor;
+    }
+  }
+}
+
+std::uint64_t BlockCounts::hashOf(int side, const std::uint64_t* sums) const {
   std::uint64_t hash = 0;
-  for (int x = 0; x < n.x; ++x) {
-    for (int y = 0; y < n.y; ++y) {
-      const Label* p = lowest + x * sx + y * sy;
-      for (int z = 0; z < n.z; ++z) {
-        hash += code_[std::min<std::size_t>(p[z * sz], none)] * *factor++;
+  for (const std::uint64_t factor : up_[side]) {
+    const std::uint64_t sum = *sums++;
+    hash += (sum ^ sum >> 29) * factor;
+  }
+  return hash ^ hash >> 32;
+}
+
+std::uint64_t BlockCounts::hashAt(int side, const PatchSource& source, const Vec3i& p,
+                                  int frame) const {
+  const std::size_t none = code_.size() - 1;
+  const Vec3i n = shape_[side];
+  std::array<std::uint64_t, kSides> sums{};
+  for (int z = 0; z < n.z; ++z) {
+    const std::uint64_t* factor = across_[side].data();
+    for (int x = 0; x < n.x; ++x) {
+      for (int y = 0; y < n.y; ++y) {
+        const std::size_t label = source.at(p + Vec3i{x, y, z}, frame);
+        sums[z] += code_[std::min(label, none)] * *factor++;
       }
     }
   }
-  return hash ^ hash >> 32;
+  return hashOf(side, sums.data());
 }
 
 std::int32_t BlockCounts::find(int side, std::uint64_t hash) const {
@@ -156,8 +190,9 @@ void BlockCounts::countSources(std::span<const PatchSource> sources, const Progr
                 }
               }
               if (!whole) continue;
-              const std::int32_t id = side == 0 ? std::int32_t{*lowest}
-                                                : findOrAdd(side, hashAt(side, lowest, sx, sy, sz));
+              const std::int32_t id = side == 0
+                                          ? std::int32_t{*lowest}
+                                          : findOrAdd(side, hashAt(side, source, {x, y, z}, t));
               target_[id] += wz * weight;
               if (side == 2) {
                 shown.push_back(
@@ -185,37 +220,14 @@ void BlockCounts::countSources(std::span<const PatchSource> sources, const Progr
         side + 1 < kSides ? static_cast<std::size_t>(firstOf_[side + 1]) : target_.size();
     for (std::size_t b = firstOf_[side]; b < last; ++b) all += target_[b];
     const PatchSource& source = sources[0];
-    const std::int64_t sz = source.frames, sy = sz * source.size.z, sx = sy * source.size.y;
     const Vec3i corner = source.size - shape_[side];
-    const Label* top = source.labels.data() + source.position(corner, 0);
-    if (source.size.z == size_.z || *top >= none) continue;
+    const Label top = source.at(corner, 0);
+    if (source.size.z == size_.z || top >= none) continue;
     const std::int32_t air =
-        side == 0 ? std::int32_t{*top} : find(side, hashAt(side, top, sx, sy, sz));
+        side == 0 ? std::int32_t{top} : find(side, hashAt(side, source, corner, 0));
     target_[air] += static_cast<double>(volume(places1_[side])) * frames_ - all;
     target_[air] = std::max(target_[air], 0.0);
   }
-}
-
-std::int32_t BlockCounts::blockIn(int side, std::span<const Label> grid, const Vec3i& p,
-                                  int frame) const {
-  const Vec3i n = shape_[side];
-  const std::int64_t sz = frames_, sy = sz * size_.z, sx = sy * size_.y;
-  const Label* lowest = grid.data() + (p.x * sx + p.y * sy + p.z * sz + frame);
-  if (p.x + n.x <= size_.x && p.y + n.y <= size_.y && p.z + n.z <= size_.z) {
-    return find(side, hashAt(side, lowest, sx, sy, sz));
-  }
-  // It goes on at the other end of a periodic axis.
-  std::array<Label, 27> labels;
-  std::size_t i = 0;
-  for (int x = 0; x < n.x; ++x) {
-    for (int y = 0; y < n.y; ++y) {
-      for (int z = 0; z < n.z; ++z) {
-        const Vec3i q{(p.x + x) % size_.x, (p.y + y) % size_.y, (p.z + z) % size_.z};
-        labels[i++] = grid[q.x * sx + q.y * sy + q.z * sz + frame];
-      }
-    }
-  }
-  return find(side, hashAt(side, labels.data(), n.y * n.z, n.z, 1));
 }
 
 void BlockCounts::count(std::span<const Label> grid, const Progress& progress) {
@@ -228,12 +240,15 @@ void BlockCounts::count(std::span<const Label> grid, const Progress& progress) {
     ids_[side].assign(grid.size(), kUnknown);
     const Vec3i n = places1_[side];
     parallelFor(0, static_cast<std::size_t>(n.x), 1, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::uint64_t> sums;
       for (int x = static_cast<int>(begin); x < static_cast<int>(end); ++x) {
         progress.check();
         for (int y = 0; y < n.y; ++y) {
-          for (int z = 0; z < n.z; ++z) {
-            for (int t = 0; t < frames_; ++t) {
-              ids_[side][problem_->position({x, y, z}, t)] = blockIn(side, grid, {x, y, z}, t);
+          for (int t = 0; t < frames_; ++t) {
+            sumLayers(side, grid, {x, y, 0}, t, n.z + shape_[side].z - 1, sums);
+            for (int z = 0; z < n.z; ++z) {
+              ids_[side][problem_->position({x, y, z}, t)] =
+                  find(side, hashOf(side, sums.data() + z));
             }
           }
         }
@@ -266,31 +281,63 @@ void BlockCounts::look(std::span<const Label> grid, std::span<const Changed> cha
     first = std::min(first, c.frame);
     last = std::max(last, c.frame);
   }
+  const int frames = last - first + 1;
   for (int side = 1; side < kSides; ++side) {
     const Vec3i n = shape_[side];
-    const Vec3i corner = low - n + Vec3i{1, 1, 1};
-    const Vec3i box = high - corner + Vec3i{1, 1, 1};
-    const int frames = last - first + 1;
-    change.seen.assign((static_cast<std::size_t>(volume(box)) * frames + 63) / 64, 0);
+    Vec3i corner = low - n + Vec3i{1, 1, 1};
+    Vec3i box = high - corner + Vec3i{1, 1, 1};
+    for (int axis = 0; axis < 3; ++axis) {
+      // Around a periodic axis a block would come twice.
+      if (!periodic_[axis] || corner[axis] >= 0) continue;
+      corner[axis] = 0;
+      box[axis] = size_[axis];
+    }
+    const std::size_t words = (static_cast<std::size_t>(box.z) + 63) / 64;
+    change.seen.assign(static_cast<std::size_t>(box.x) * box.y * frames * words, 0);
+    const auto columnAt = [&](int x, int y, int t) {
+      return change.seen.data() + ((static_cast<std::size_t>(x) * box.y + y) * frames + t) * words;
+    };
     for (const Changed& c : changed) {
-      for (int x = 0; x < n.x; ++x) {
-        for (int y = 0; y < n.y; ++y) {
-          for (int z = 0; z < n.z; ++z) {
-            Vec3i p = c.cell - Vec3i{x, y, z};
-            const Vec3i q = p - corner;
-            const std::size_t bit =
-                ((static_cast<std::size_t>(q.x) * box.y + q.y) * box.z + q.z) * frames +
-                (c.frame - first);
-            if (change.seen[bit / 64] >> (bit % 64) & 1) continue;
-            change.seen[bit / 64] |= std::uint64_t{1} << (bit % 64);
-            bool inside = true;
-            for (int axis = 0; axis < 3; ++axis) {
-              if (p[axis] < 0 && periodic_[axis]) p[axis] += size_[axis];
-              inside = inside && p[axis] >= 0 && p[axis] < places1_[side][axis];
-            }
-            if (!inside) continue;
-            const std::int64_t at = problem_->position(p, c.frame);
-            const std::int32_t now = blockIn(side, grid, p, c.frame), before = ids_[side][at];
+      const Vec3i q = c.cell - corner;
+      for (int i = q.x - n.x + 1; i <= q.x; ++i) {
+        const int x = i < 0 ? i + box.x : i;
+        for (int j = q.y - n.y + 1; j <= q.y; ++j) {
+          const int y = j < 0 ? j + box.y : j;
+          std::uint64_t* column = columnAt(x, y, c.frame - first);
+          for (int k = q.z - n.z + 1; k <= q.z; ++k) {
+            const int z = k < 0 ? k + box.z : k;
+            column[z / 64] |= std::uint64_t{1} << (z % 64);
+          }
+        }
+      }
+    }
+    for (int x = 0; x < box.x; ++x) {
+      for (int y = 0; y < box.y; ++y) {
+        Vec3i p = corner + Vec3i{x, y, 0};
+        bool inside = true;
+        for (int axis = 0; axis < 2; ++axis) {
+          inside = inside && p[axis] >= 0 && p[axis] < places1_[side][axis];
+        }
+        if (!inside) continue;
+        for (int t = 0; t < frames; ++t) {
+          const std::span<const std::uint64_t> column(columnAt(x, y, t), words);
+          int begin = 0, end = box.z;
+          const auto touched = [&](int z) { return column[z / 64] >> (z % 64) & 1; };
+          while (begin < end && !touched(begin)) ++begin;
+          while (begin < end && !touched(end - 1)) --end;
+          if (begin == end) continue;
+          if (!periodic_.z) {
+            begin = std::max(begin, -corner.z);
+            end = std::min(end, places1_[side].z - corner.z);
+            if (begin >= end) continue;
+          }
+          p.z = corner.z + begin;
+          sumLayers(side, grid, p, first + t, end - begin + n.z - 1, change.sums);
+          for (int z = begin; z < end; ++z, ++p.z) {
+            if (!touched(z)) continue;
+            const std::int64_t at = problem_->position(p, first + t);
+            const std::int32_t now = find(side, hashOf(side, change.sums.data() + (z - begin)));
+            const std::int32_t before = ids_[side][at];
             if (now == before) continue;
             change.touched[side].push_back({static_cast<std::int32_t>(at), before, now});
           }
@@ -310,13 +357,24 @@ double BlockCounts::shift(std::int32_t id, int by) {
   return std::abs(count_[id] - target_[id]) - before;
 }
 
+double BlockCounts::estimate(const Change& change) const {
+  const auto shifted = [&](std::int32_t id, int by) {
+    if (id == kUnknown) return double(by);
+    return std::abs(count_[id] + by - target_[id]) - std::abs(count_[id] - target_[id]);
+  };
+  double more = 0;
+  for (const auto& list : change.touched) {
+    for (const Touched& t : list) more += shifted(t.before, -1) + shifted(t.now, 1);
+  }
+  return more;
+}
+
 double BlockCounts::add(const Change& change) {
-  static const double w1 = getenv("W1") ? atof(getenv("W1")) : 1, w2 = getenv("W2") ? atof(getenv("W2")) : 1;
   double more = 0;
   for (const auto& list : change.touched) {
     double here = 0;
     for (const Touched& t : list) here += shift(t.before, -1) + shift(t.now, 1);
-    more += here * (&list == &change.touched[0] ? w1 : &list == &change.touched[1] ? w2 : 1);
+    more += here;
   }
   return more;
 }

@@ -51,7 +51,8 @@ class BlockCounts {
   /// one for each thread.
   struct Change {
     std::array<std::vector<Touched>, kSides> touched;
-    std::vector<std::uint64_t> seen;  // a bit for each place around, cleared after use
+    std::vector<std::uint64_t> seen;  // a bit for each place around, by columns
+    std::vector<std::uint64_t> sums;  // of the layers of a column's blocks
   };
   /// A position that has a new label in `grid`, and the one before.
   struct Changed {
@@ -59,10 +60,13 @@ class BlockCounts {
     int frame;
     Label before;
   };
-  /// Finds what `changed` touches. O(changed cells x 27 x 27) at most. Threads may look at the same
+  /// Finds what `changed` touches. O(changed cells x 27). Threads may look at the same
   /// time, each into its own `change`, where what they touch is apart.
   void look(std::span<const Label> grid, std::span<const Changed> changed, Change& change) const;
 
+  /// About what `add` would return, without counting: blocks that a change touches several times
+  /// are taken one by one.
+  double estimate(const Change& change) const;
   /// Counts the change in; returns what it adds to the energy.
   double add(const Change& change);
   /// Takes it out again.
@@ -94,12 +98,13 @@ class BlockCounts {
     std::int32_t id = kUnknown;
   };
 
-  std::uint64_t hashAt(int side, const Label* lowest, std::int64_t sx, std::int64_t sy,
-                       std::int64_t sz) const;
+  void sumLayers(int side, std::span<const Label> grid, const Vec3i& p, int frame, int layers,
+                 std::vector<std::uint64_t>& sums) const;
+  std::uint64_t hashOf(int side, const std::uint64_t* sums) const;
+  std::uint64_t hashAt(int side, const PatchSource& source, const Vec3i& p, int frame) const;
   std::int32_t find(int side, std::uint64_t hash) const;
   std::int32_t findOrAdd(int side, std::uint64_t hash);
   void grow();
-  std::int32_t blockIn(int side, std::span<const Label> grid, const Vec3i& p, int frame) const;
   void countSources(std::span<const PatchSource> sources, const Progress& progress);
   double shift(std::int32_t id, int by);
 
@@ -109,8 +114,9 @@ class BlockCounts {
   Axes periodic_;
   std::array<Vec3i, kSides> shape_, places1_;  // of a block; how many places it has in the result
   std::vector<std::uint64_t> code_;            // of each label
-  std::array<std::vector<std::uint64_t>, kSides> factor_;  // of each cell of a block
-  std::array<std::int32_t, kSides> firstOf_{};             // blocks of a length come together
+  // Of each cell of a layer of a block, and of each layer: blocks' hashes are sums of products.
+  std::array<std::vector<std::uint64_t>, kSides> across_, up_;
+  std::array<std::int32_t, kSides> firstOf_{};  // blocks of a length come together
   std::vector<Slot> slots_;
   std::size_t used_ = 0;
   std::vector<double> target_;

@@ -11,7 +11,7 @@
 namespace exemplar {
 namespace {
 
-constexpr int kWide = 8;                               // columns
+constexpr int kWide = 8;                                // columns
 constexpr std::uint64_t kAlongX = 0x9E3779B97F4A7C15u;  // odd
 constexpr std::uint64_t kAlongY = 0xD6E8FEB86659FD93u;
 
@@ -123,8 +123,7 @@ int CopiedWindows::look(std::span<const Label> grid, const Vec3i& low, const Vec
     if ((x < 0 || x >= size_.x) && !periodic_.x) continue;
     for (int y = first.y; y < end.y; ++y) {
       if ((y < 0 || y >= size_.y) && !periodic_.y) continue;
-      const std::int64_t c =
-          std::int64_t{wrapped(x, size_.x)} * size_.y + wrapped(y, size_.y);
+      const std::int64_t c = std::int64_t{wrapped(x, size_.x)} * size_.y + wrapped(y, size_.y);
       std::uint64_t& hash =
           change.hashes[static_cast<std::size_t>(x - first.x) * ny + (y - first.y)];
       hash = column_[c];
@@ -146,9 +145,8 @@ int CopiedWindows::look(std::span<const Label> grid, const Vec3i& low, const Vec
     for (int y = 0; y < windowsY; ++y) {
       const int py = first.y + y;
       if (!periodic_.y && (py < 0 || py + wideY_ > size_.y)) continue;
-      const std::int32_t place =
-          static_cast<std::int32_t>(std::int64_t{wrapped(px, size_.x)} * size_.y +
-                                    wrapped(py, size_.y));
+      const std::int32_t place = static_cast<std::int32_t>(
+          std::int64_t{wrapped(px, size_.x)} * size_.y + wrapped(py, size_.y));
       const bool copied = shows(along(change.sums.data() + x * windowsY + y,
                                       static_cast<std::size_t>(windowsY), wideX_, kAlongX));
       if (copied == (copied_[place] != 0)) continue;

@@ -9,9 +9,9 @@ namespace exemplar {
 namespace {
 
 constexpr int kCandidates = 6;
-constexpr int kAround = 2;          // columns around a core that should agree
-constexpr int kNearSide = 4;        // cells
-constexpr std::size_t kRare = 24;   // places in the examples
+constexpr int kAround = 2;         // columns around a core that should agree
+constexpr int kNearSide = 4;       // cells
+constexpr std::size_t kRare = 24;  // places in the examples
 constexpr int kTriesForRare = 3;
 
 int wrapped(int i, int n) { return ((i % n) + n) % n; }

@@ -44,8 +44,7 @@ class PatchAlignments {
 
   /// `grid` has the label of each position. None where all candidates are what is there.
   std::optional<PatchMove::Alignment> find(Draws& draws, const PatchMove::Window& window,
-                                           const CellBox& core,
-                                           std::span<const Label> grid) const;
+                                           const CellBox& core, std::span<const Label> grid) const;
 
  private:
   PatchMove::Alignment anywhere(Draws& draws, const PatchMove::Window& window) const;

@@ -10,7 +10,7 @@ namespace exemplar {
 namespace {
 
 /// More than this is not one patch any more.
-constexpr int kMostChanged = 2000;        // cells
+constexpr int kMostChanged = 2000;  // cells
 constexpr std::size_t kMostConflicts = 100;
 constexpr std::size_t kMostInRim = 1000;  // cells
 /// Wrong choices in the search for a rim's labels: those that are found at all are found soon.
@@ -169,37 +169,45 @@ void PatchMove::findMembers() {
 /// The cells near conflicts, ascending.
 void PatchMove::findRim() {
   const ModelOptions& o = problem_.options();
-  rim_.clear();
-  marked_.assign(stamp_.size(), 0);
   const int wide = 2 * window_.reach + 1, rim = patch_.rim;
-  Vec3i low{wide, wide, o.size.z}, high{0, 0, 0};
+  const int words = (o.size.z + 63) / 64;
+  // A bit for each height of each column.
+  marked_.assign(static_cast<std::size_t>(wide) * wide * words, 0);
+  heights_.assign(static_cast<std::size_t>(words), 0);
   for (const auto& [step, frameStep] : conflicts_) {
-    const Vec3i c{step.x + window_.reach, step.y + window_.reach, window_.center.z + step.z};
-    for (int x = std::max(c.x - rim, 0); x <= std::min(c.x + rim, wide - 1); ++x) {
-      for (int y = std::max(c.y - rim, 0); y <= std::min(c.y + rim, wide - 1); ++y) {
-        for (int k = c.z - rim; k <= c.z + rim; ++k) {
-          if (!o.periodic.z && (k < 0 || k >= o.size.z)) continue;
-          const int z = wrapped(k, o.size.z);
-          marked_[(static_cast<std::size_t>(x) * wide + y) * o.size.z + z] = 1;
-          low = min(low, {x, y, z});
-          high = max(high, {x + 1, y + 1, z + 1});
-        }
+    const int x = step.x + window_.reach, y = step.y + window_.reach;
+    const int z = window_.center.z + step.z;
+    std::fill(heights_.begin(), heights_.end(), 0);
+    for (int k = z - rim; k <= z + rim; ++k) {
+      if (!o.periodic.z && (k < 0 || k >= o.size.z)) continue;
+      const int height = wrapped(k, o.size.z);
+      heights_[height / 64] |= std::uint64_t{1} << (height % 64);
+    }
+    for (int i = std::max(x - rim, 0); i <= std::min(x + rim, wide - 1); ++i) {
+      for (int j = std::max(y - rim, 0); j <= std::min(y + rim, wide - 1); ++j) {
+        std::uint64_t* column = marked_.data() + (static_cast<std::size_t>(i) * wide + j) * words;
+        for (int w = 0; w < words; ++w) column[w] |= heights_[w];
       }
     }
   }
-  for (int x = low.x; x < high.x; ++x) {
-    for (int y = low.y; y < high.y; ++y) {
-      for (int z = low.z; z < high.z; ++z) {
-        if (!marked_[(static_cast<std::size_t>(x) * wide + y) * o.size.z + z]) continue;
-        Vec3i p{window_.center.x + x - window_.reach, window_.center.y + y - window_.reach, z};
-        if (o.periodic.x) p.x = wrapped(p.x, o.size.x);
-        if (o.periodic.y) p.y = wrapped(p.y, o.size.y);
-        if (p.x < 0 || p.y < 0 || p.x >= o.size.x || p.y >= o.size.y) continue;
+  rim_.clear();
+  for (int i = 0; i < wide; ++i) {
+    Vec3i p{window_.center.x + i - window_.reach, 0, 0};
+    if (o.periodic.x) p.x = wrapped(p.x, o.size.x);
+    if (p.x < 0 || p.x >= o.size.x) continue;
+    for (int j = 0; j < wide; ++j) {
+      p.y = window_.center.y + j - window_.reach;
+      if (o.periodic.y) p.y = wrapped(p.y, o.size.y);
+      if (p.y < 0 || p.y >= o.size.y) continue;
+      const std::uint64_t* column =
+          marked_.data() + (static_cast<std::size_t>(i) * wide + j) * words;
+      forEachLabel({column, static_cast<std::size_t>(words)}, [&](int z) {
+        p.z = z;
         for (int t = 0; t < o.frames; ++t) {
           const int cell = problem_.cell(problem_.position(p, t));
           if (cell >= 0) rim_.push_back(cell);
         }
-      }
+      });
     }
   }
   if (images_ || o.periodic.any()) {
@@ -238,7 +246,7 @@ bool PatchMove::closeRim(const Random& random, std::vector<Before>& before,
 PatchMove::Outcome PatchMove::make(const Window& window, const Alignment& alignment,
                                    const Patch& patch, const Random& random,
                                    std::span<Label> labels, std::vector<Before>& before,
-                                   const Progress& progress) {
+                                   const std::function<bool()>& worth, const Progress& progress) {
   window_ = window;
   alignment_ = alignment;
   patch_ = patch;
@@ -252,7 +260,7 @@ PatchMove::Outcome PatchMove::make(const Window& window, const Alignment& alignm
     before.push_back({m.cell, labels_[m.cell]});
     labels_[m.cell] = m.label;
   }
-  if (conflicts_.empty() || closeRim(random, before, progress)) return Outcome::Made;
+  if (conflicts_.empty() || (worth() && closeRim(random, before, progress))) return Outcome::Made;
   for (const Before& b : before) labels_[b.cell] = b.label;
   before.clear();
   return Outcome::Conflict;

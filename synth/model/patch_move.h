@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,10 +25,10 @@ namespace exemplar {
 /// "Fast approximate energy minimization via graph cuts", PAMI 23(11), 2001; for shifts of an
 /// example: Pritch, Kav-Venaki, Peleg, "Shift-map image editing", ICCV 2009) are implications, "if
 /// this cell takes the example's label, so must its neighbor". From the core of the patch they are
-/// followed to the border of a box; an object whose cells cannot stand beside air comes, or goes, as
-/// a whole. Mostly nothing is at fault then, and nothing had to be searched. What is, is a conflict:
-/// the cells around it are a `Region`, set free and labeled by search, the label in place first,
-/// then the example's. Where that does not succeed nothing changes.
+/// followed to the border of a box; an object whose cells cannot stand beside air comes, or goes,
+/// as a whole. Mostly nothing is at fault then, and nothing had to be searched. What is, is a
+/// conflict: the cells around it are a `Region`, set free and labeled by search, the label in place
+/// first, then the example's. Where that does not succeed nothing changes.
 ///
 /// Deterministic. One thread at a time; threads may make moves in one labeling at once where their
 /// windows are further apart than the network's neighbors. Memory: a region and the window.
@@ -69,7 +70,7 @@ class PatchMove {
   /// did; a cell may change twice.
   Outcome make(const Window& window, const Alignment& alignment, const Patch& patch,
                const Random& random, std::span<Label> labels, std::vector<Before>& before,
-               const Progress& progress = {});
+               const std::function<bool()>& worth, const Progress& progress = {});
 
  private:
   struct Member {
@@ -107,7 +108,7 @@ class PatchMove {
   std::vector<std::pair<Vec3i, int>> conflicts_;
   std::vector<std::uint32_t> member_, stamp_;  // of each place in the window
   std::uint32_t now_ = 0;
-  std::vector<std::uint8_t> marked_;
+  std::vector<std::uint64_t> marked_, heights_;
   std::vector<std::int32_t> rim_;
 };
 

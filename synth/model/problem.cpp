@@ -123,6 +123,9 @@ void ModelProblem::checkOptions() const {
     throw InputError("`rounds` " + std::to_string(o.rounds) + ": must be 1 to 100");
   if (o.budget < 1)
     throw InputError("`budget` " + std::to_string(o.budget) + ": must be 1 or more");
+  if (!(o.moves >= 0) || o.moves > 1e6) throw InputError("`moves`: must be 0 to 1,000,000");
+  if (!(o.copyPrice >= 0) || !std::isfinite(o.copyPrice))
+    throw InputError("`copy-price`: must be 0 or more, and finite");
   if (o.patience < 0)
     throw InputError("`patience` " + std::to_string(o.patience) + ": must be 0 or more");
 

@@ -136,6 +136,14 @@ Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelCh
     return labeling;
   };
   if (method == ModelMethod::Whole) return whole(std::nullopt);
+  if (method == ModelMethod::Auto && problem.options().moves > 0) {
+    // Patches bring what is to be there: ground is enough to begin with.
+    const Progress first = progress.part(0, 0.2);
+    Labeling plain =
+        labelWhole(problem, base, chooser, statistics, first, problem.options().patience, true);
+    if (plain.outcome != Outcome::Unfinished) return plain;
+    done = 0.2;
+  }
   if (method == ModelMethod::Auto) {
     // Where blocks are an alternative the whole is not worked on for minutes.
     Labeling soon = whole(problem.options().patience);
@@ -176,9 +184,11 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
   if (possible) {
     progress.report("counting neighbors in the example", 0.08);
     const LabelChooser chooser(problem, examples, progress);
-    labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, 0.85));
+    const double labeled = options.moves > 0 ? 0.3 : 0.85;
+    labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, labeled));
     if (labeling.outcome == Outcome::Complete && options.moves > 0) {
-      annealPatches(problem, base, chooser, examples, labeling.labels, result.statistics, progress.part(0.3, 0.85));
+      annealPatches(problem, base, chooser, examples, labeling.labels, result.statistics,
+                    progress.part(labeled, 0.85));
     }
     if (labeling.outcome == Outcome::Complete) {
       labeling = meetLimits(problem, base, chooser, std::move(labeling.labels), result.statistics,

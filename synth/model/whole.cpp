@@ -37,7 +37,8 @@ constexpr int kRepairsInPlace = 3;
 class WholePass {
  public:
   WholePass(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-            ModelStatistics& statistics, const Progress& progress, std::optional<int> patience)
+            ModelStatistics& statistics, const Progress& progress, std::optional<int> patience,
+            bool plain)
       : problem_(problem),
         network_(problem.network()),
         base_(base),
@@ -45,6 +46,7 @@ class WholePass {
         statistics_(statistics),
         progress_(progress),
         patience_(patience),
+        plain_(plain),
         catalog_(network_) {
     for (int c = 0; c < network_.cells; ++c) catalog_.setDomain(c, base[c]);
   }
@@ -63,6 +65,7 @@ class WholePass {
   ModelStatistics& statistics_;
   const Progress& progress_;
   std::optional<int> patience_;
+  bool plain_;
   int large_ = 0;  // large regions in a row that could not be labeled
   Catalog catalog_;
   std::optional<Region> region_;  // made for the first repair
@@ -161,9 +164,8 @@ Labeling WholePass::run() {
     result.share = static_cast<double>(c) / network_.cells;
     if (c % 1024 == 0) progress_.report("labeling", result.share);
     if (catalog_.decided(c)) continue;
-    static const bool lawn = std::getenv("LAWN") != nullptr;
     const auto choose = [&](int cell, std::span<const LabelWord> set, int draw) {
-      if (lawn) return mostFrequent(set);
+      if (plain_) return mostFrequent(set);
       return chooser_.choose(chooser_.numbersForPass(), cell, set, draw, placed);
     };
     const std::int32_t one[1] = {c};
@@ -186,8 +188,8 @@ Labeling WholePass::run() {
 
 Labeling labelWhole(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                     ModelStatistics& statistics, const Progress& progress,
-                    std::optional<int> patience) {
-  return WholePass(problem, base, chooser, statistics, progress, patience).run();
+                    std::optional<int> patience, bool plain) {
+  return WholePass(problem, base, chooser, statistics, progress, patience, plain).run();
 }
 
 }  // namespace exemplar

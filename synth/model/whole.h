@@ -24,11 +24,14 @@ struct Labeling {
 /// loses all of its labels in this way, the region around it (`Region`) is taken back and
 /// relabeled, by search and then exactly; the region grows until that succeeds.
 ///
+/// With `plain`, cells take the label that is most frequent in the examples of those left, not one
+/// at random: mostly ground and air, soon labeled.
+///
 /// With `patience`, ends Unfinished after more than that many large regions in a row that could not
 /// be labeled. Impossible where the region has grown to everything and the exact solver proves that
 /// nothing fits; Unfinished where it could not decide. Throws `Cancelled`.
 Labeling labelWhole(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                     ModelStatistics& statistics, const Progress& progress,
-                    std::optional<int> patience = std::nullopt);
+                    std::optional<int> patience = std::nullopt, bool plain = false);
 
 }  // namespace exemplar
