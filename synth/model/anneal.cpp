@@ -28,6 +28,11 @@ constexpr int kLongest = 14, kLongestAtLast = 6, kWidest = 8;
 constexpr int kShortest = 7;
 /// How far implications are followed at most, and how wide a rim is, in cells.
 constexpr int kGrow = 4, kRim = 3;
+/// Conflicts that a patch may have for each column along its border, at last; few at first: what
+/// comes whole is to come before what must be mended.
+constexpr double kConflicts = 1.6;
+/// The share of the cells around a core that its place in the example must agree with, at last.
+constexpr double kAgreement = 0.75;
 /// One core in so many has a part of the height only.
 constexpr int kLow = 4;
 /// Columns looked at to find one where the example is not met.
@@ -188,10 +193,12 @@ void PatchAnnealing::propose(Proposal& proposal, std::uint64_t number, const Vec
   const CellBox box{{-inner, -inner, -options_.size.z}, {inner + 1, inner + 1, options_.size.z}};
   patch.core = patch.core & box;
   patch.grown = patch.core.grown(draws.between(0, kGrow)) & box;
+  const Vec3i grown = patch.grown.size();
+  patch.mostConflicts = 2 + static_cast<int>(kConflicts * 2 * (grown.x + grown.y) * done_);
   patch.rim = draws.between(1, kRim);
   proposal.threshold = -temperature_ * std::log(1 - draws.uniform());
   proposal.outcome = PatchMove::Outcome::Nothing;
-  const auto alignment = alignments_.find(draws, window, patch.core, grid_);
+  const auto alignment = alignments_.find(draws, window, patch.core, grid_, kAgreement * done_);
   if (!alignment) return;
   const auto worth = [&] {
     show(proposal);

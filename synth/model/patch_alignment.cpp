@@ -130,15 +130,16 @@ double PatchAlignments::agreement(const PatchMove::Window& window,
 std::optional<PatchMove::Alignment> PatchAlignments::find(Draws& draws,
                                                           const PatchMove::Window& window,
                                                           const CellBox& core,
-                                                          std::span<const Label> grid) const {
+                                                          std::span<const Label> grid,
+                                                          double least) const {
   std::optional<PatchMove::Alignment> best;
-  double most = -1;
+  double most = least;
   for (int i = 0; i < kCandidates; ++i) {
     std::optional<PatchMove::Alignment> candidate;
     if (i % 2 == 1) candidate = byBlock(draws, window, core);
     if (!candidate) candidate = anywhere(draws, window);
     const double agrees = agreement(window, *candidate, core, grid);
-    if (agrees <= most) continue;
+    if (agrees < 0 || agrees <= most) continue;
     most = agrees;
     best = candidate;
   }

@@ -42,9 +42,11 @@ class PatchAlignments {
   PatchAlignments(const ModelProblem& problem, std::span<const PatchSource> sources,
                   const BlockCounts& counts);
 
-  /// `grid` has the label of each position. None where all candidates are what is there.
+  /// `grid` has the label of each position. None where all candidates are what is there, or none
+  /// agrees with more than the share `least` of the cells around.
   std::optional<PatchMove::Alignment> find(Draws& draws, const PatchMove::Window& window,
-                                           const CellBox& core, std::span<const Label> grid) const;
+                                           const CellBox& core, std::span<const Label> grid,
+                                           double least) const;
 
  private:
   PatchMove::Alignment anywhere(Draws& draws, const PatchMove::Window& window) const;

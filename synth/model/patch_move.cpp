@@ -10,8 +10,7 @@ namespace exemplar {
 namespace {
 
 /// More than this is not one patch any more.
-constexpr int kMostChanged = 2000;  // cells
-constexpr std::size_t kMostConflicts = 100;
+constexpr int kMostChanged = 2000;        // cells
 constexpr std::size_t kMostInRim = 1000;  // cells
 /// Wrong choices in the search for a rim's labels: those that are found at all are found soon.
 constexpr std::int64_t kRimConflicts = 20;
@@ -35,7 +34,14 @@ PatchMove::PatchMove(const ModelProblem& problem, const LabelSets& base,
       chooser_(chooser),
       sources_(sources),
       region_(problem.network(), base),
-      images_(problem.options().symmetry.any()) {}
+      images_(problem.options().symmetry.any()),
+      words_(problem.network().words()) {
+  for (const LabelSets& table : network_.support) support_.push_back(table.data());
+  for (const CellOffset& o : problem.offsets()) {
+    steps_.push_back({{o.x, o.y, o.z}, o.t});
+    steps_.push_back({{-o.x, -o.y, -o.z}, -o.t});
+  }
+}
 
 std::size_t PatchMove::local(const Vec3i& step, int frameStep) const {
   const ModelOptions& o = problem_.options();
@@ -76,25 +82,25 @@ void PatchMove::add(std::int32_t cell, const Vec3i& step, int frameStep) {
 /// Looks across one link of a cell that takes the source's `label`.
 void PatchMove::across(std::int32_t to, int relation, Label label, const Vec3i& step,
                        int frameStep) {
-  const auto allowed = network_.support[relation][label];
+  const LabelWord* allowed = support_[relation] + static_cast<std::size_t>(label) * words_;
+  const auto allows = [&](Label other) { return allowed[other / 64] >> (other % 64) & 1; };
   const bool in = inGrown(step);
   if (in) {
     const std::size_t there = local(step, frameStep);
     if (stamp_[there] == now_) {
       // Of a source that the request does not suit two labels may exclude each other.
-      if (!containsLabel(allowed, members_[member_[there]].label))
-        conflicts_.emplace_back(step, frameStep);
+      if (!allows(members_[member_[there]].label)) conflicts_.emplace_back(step, frameStep);
       return;
     }
   }
-  if (containsLabel(allowed, labels_[to])) return;
+  if (allows(labels_[to])) return;
   if (!in) {
     conflicts_.emplace_back(step, frameStep);
     return;
   }
   const std::size_t before = members_.size();
   add(to, step, frameStep);
-  if (members_.size() > before && !containsLabel(allowed, members_.back().label))
+  if (members_.size() > before && !allows(members_.back().label))
     conflicts_.emplace_back(step, frameStep);
 }
 
@@ -113,10 +119,8 @@ void PatchMove::follow(std::size_t number) {
   for (int s = 0; s < network_.slots; ++s) {
     const std::int32_t n = near[s];
     if (n == network_.cells) continue;
-    const CellOffset& o = problem_.offsets()[s / 2];
-    const int sign = s % 2 ? -1 : 1;
-    Vec3i step = member.step + Vec3i{o.x, o.y, o.z} * sign;
-    int frameStep = member.frameStep + o.t * sign;
+    Vec3i step = member.step + steps_[s].first;
+    int frameStep = member.frameStep + steps_[s].second;
     if (images_) stepTo(n, step, frameStep);
     across(n, s, member.label, step, frameStep);
   }
@@ -161,7 +165,8 @@ void PatchMove::findMembers() {
     }
   }
   for (std::size_t m = 0; m < members_.size(); ++m) {
-    if (changed_ > kMostChanged || conflicts_.size() > kMostConflicts) return;
+    if (changed_ > kMostChanged || static_cast<int>(conflicts_.size()) > patch_.mostConflicts)
+      return;
     follow(m);
   }
 }
@@ -254,7 +259,7 @@ PatchMove::Outcome PatchMove::make(const Window& window, const Alignment& alignm
   before.clear();
   findMembers();
   if (changed_ == 0 || changed_ > kMostChanged) return Outcome::Nothing;
-  if (conflicts_.size() > kMostConflicts) return Outcome::Conflict;
+  if (static_cast<int>(conflicts_.size()) > patch_.mostConflicts) return Outcome::Conflict;
   for (const Member& m : members_) {
     if (labels_[m.cell] == m.label) continue;
     before.push_back({m.cell, labels_[m.cell]});

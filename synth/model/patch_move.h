@@ -51,6 +51,7 @@ class PatchMove {
     CellBox core;   ///< takes the source's labels where there are any
     CellBox grown;  ///< how far implications are followed; within the window, and holds the core
     int rim = 1;    ///< how far around a conflict cells are set free, >= 0
+    int mostConflicts = 60;  ///< more are not worked on
   };
   struct Before {
     std::int32_t cell;
@@ -98,6 +99,9 @@ class PatchMove {
   std::span<const PatchSource> sources_;
   Region region_;
   bool images_;  // whether cells stand for several positions
+  int words_;
+  std::vector<const LabelWord*> support_;     // of each relation
+  std::vector<std::pair<Vec3i, int>> steps_;  // along each slot
 
   Window window_;
   Alignment alignment_;
