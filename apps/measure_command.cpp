@@ -40,9 +40,44 @@ void writeReport(const Options& options, const Example& example, const Measured&
   writePage(page, {{"figures", toJson(all)}}, picture, progress.part(0.4, 1));
 }
 
+void writeFigures(const Options& options, const std::vector<Figure>& all, Terminal& terminal) {
+  terminal.wipe();
+  if (options.json == "-") {
+    std::printf("%s\n", toJson(all).dump(2).c_str());
+    return;
+  }
+  if (!terminal.quiet()) terminal.print(figuresTable(all));
+  if (options.json.empty()) return;
+  writeFile(options.json, toJson(all).dump(2) + "\n");
+  terminal.noteFile(options.json, "figures");
+}
+
+/// Whether the result is a grid of labels, or a picture of an example that is one.
+bool isOfLabels(const Options& options) {
+  const SourceKind result = sourceKind(options.result);
+  if (result == SourceKind::Labels || result == SourceKind::Picture) return true;
+  return result == SourceKind::HeightMap && sourceKind(options.example) == SourceKind::Labels;
+}
+
+void measureLabels(const Options& options, Terminal& terminal) {
+  for (const auto& [name, given] : {std::pair{"--report", !options.report.empty()},
+                                    {"--origins", !options.origins.empty()},
+                                    {"--scale", options.settings.has("scale")}}) {
+    if (given)
+      throw InputError(std::string(name) + ": has no meaning for a result of labels; leave it out");
+  }
+  const Progress& progress = terminal.progress();
+  const Example example = readExample(options.example, readingOf(options.settings, Form::Labels),
+                                      progress.part(0, 0.4));
+  for (const std::string& warning : example.warnings) terminal.warn(warning);
+  writeFigures(options, figures(measureContent(options.result, example, progress.part(0.4, 1))),
+               terminal);
+}
+
 void measureFiles(const Options& options, Terminal& terminal) {
   if (!options.json.empty() && options.json != "-") requireOutput(options.json, ".json");
   if (!options.report.empty()) requireOutput(options.report, ".html");
+  if (isOfLabels(options)) return measureLabels(options, terminal);
   RenderOptions picture = renderOptions(options.picture);
   const Request request = requestOf(options.settings);
   const Progress& progress = terminal.progress();
@@ -54,16 +89,7 @@ void measureFiles(const Options& options, Terminal& terminal) {
   const Measured measured =
       readMeasured(options.result, origins, request.extent.scale, example, progress.part(0.2, 0.4));
   const std::vector<Figure> all = figures(measure(measured, example, progress.part(0.4, 0.7)));
-  terminal.wipe();
-  if (options.json == "-") {
-    std::printf("%s\n", toJson(all).dump(2).c_str());
-  } else {
-    if (!terminal.quiet()) terminal.print(figuresTable(all));
-    if (!options.json.empty()) {
-      writeFile(options.json, toJson(all).dump(2) + "\n");
-      terminal.noteFile(options.json, "figures");
-    }
-  }
+  writeFigures(options, all, terminal);
   if (!options.report.empty()) {
     Warnings ofPictures;
     picture.warnings = &ofPictures;
@@ -81,8 +107,10 @@ Command addMeasureCommand(CLI::App& app) {
       app.add_subcommand("measure", "Report how alike, how new and how seamless a result is");
   command->add_option("EXAMPLE", options->example, "what the result was made from")->required();
   command
-      ->add_option("RESULT", options->result,
-                   "a .vdb (its own samples), or a mesh (sampled where synth's samples were)")
+      ->add_option(
+          "RESULT", options->result,
+          "a .vdb (its own samples), a mesh (sampled where synth's samples were), or labels "
+          "(.txt .vox .vdb, a picture)")
       ->required();
   command->add_option("--origins", options->origins,
                       "the result's origins (.vdb, by synth --origins): more figures");
@@ -97,7 +125,12 @@ Command addMeasureCommand(CLI::App& app) {
   command->add_option("--json", options->json, "write the figures to this .json; - prints them");
   command->add_option("--report", options->report,
                       "write a page with surfaces that turn, figures and marks (.html)");
-  addReadingOptions(*command, Form::Field, options->settings);
+  rows = {};
+  rows.add("Reading a mesh, volume or height map as distances", "distances",
+           readingSettings(Form::Field).settings());
+  rows.add("Reading labels, or a mesh or picture cut into labels", "labels",
+           readingSettings(Form::Labels).settings());
+  rows.install(*command, options->settings);
   addPictureOptions(*command, options->picture);
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { measureFiles(*options, terminal); }};

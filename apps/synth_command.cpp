@@ -181,6 +181,8 @@ void writeReport(const Options& options, const Plan& plan, std::span<const Examp
   Json run = {{"engine", result.engine}, {"seed", result.seed}, {"seconds", seconds}};
   if (const auto measures = measure(result, examples, &surface.mesh, progress.part(0, 0.4)))
     run["figures"] = toJson(figures(*measures));
+  if (const auto content = measureContent(result, examples, progress.part(0.4, 0.4)))
+    run["figures"].update(toJson(figures(*content)));
   run["peak_memory_bytes"] = peakResidentBytes();
   if (example.form() == Form::Labels) run["labels"] = example.labels().labelCount();
   const TriangleMesh whole =

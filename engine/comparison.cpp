@@ -45,6 +45,7 @@ struct Run {
   /// says the share that the example has not.
   std::optional<std::int64_t> pairs, violations;
   std::optional<double> unknownBlocks;
+  std::optional<Content> content;  ///< of pieces
 };
 
 double secondsSince(std::chrono::steady_clock::time_point began) {
@@ -105,6 +106,7 @@ void samplePieces(const Result& result, const Example& example, const Example& p
   const AdjacencyViolations violations = findViolations(made, grid);
   run.pairs = violations.pairs;
   run.violations = violations.count;
+  run.content = measureContent(grid, made, progress);
 }
 
 /// Counts the pairs of blocks that the example does not show: for every engine in the same way, by
@@ -272,6 +274,7 @@ Json makeRun(const Example& example, const ComparisonOptions& options,
   progress.report("measuring " + name, 0.5);
   run["figures"] =
       toJson(figures(measure(example.field(), made.field, input, {}, progress.part(0.5, 0.7))));
+  if (made.content) run["figures"].update(toJson(figures(*made.content)));
   progress.report("drawing " + name, 0.7);
   const Image8 image = render(made.mesh, options.picture, progress.part(0.7, 0.8));
   progress.report("marking " + name, 0.8);
@@ -356,11 +359,8 @@ Json comparisonHead(const Example& example, const Vec3d& scale) {
         "of anything else it takes blocks of samples.",
         "model's results are whole blocks, so their size may differ by less than half a block.",
         "seconds are of synthesis alone, on all cores in use."}},
-      {"figures", Json::array()},
+      {"figures", figureMeanings()},
       {"runs", Json::array()}};
-  for (const Figure& figure : figures(Measures{}))
-    head["figures"].push_back(
-        {{"group", figure.group}, {"key", figure.key}, {"meaning", figure.meaning}});
   return head;
 }
 

@@ -36,6 +36,16 @@ inline Json toJson(const std::vector<Figure>& figures) {
   return json;
 }
 
+/// What each figure means, for the table of a page.
+inline Json figureMeanings() {
+  Json meanings = Json::array();
+  for (const auto& group : {figures(Measures{}), figures(Content{})})
+    for (const Figure& figure : group)
+      meanings.push_back(
+          {{"group", figure.group}, {"key", figure.key}, {"meaning", figure.meaning}});
+  return meanings;
+}
+
 inline Json toJson(const Statistics& statistics) {
   Json json = Json::object();
   for (const auto& [key, statistic] : statistics) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "engine/example_forms.h"
 #include "engine/realize.h"
 #include "engine/request.h"
 #include "measure/mesh_result.h"
@@ -26,6 +27,26 @@ std::optional<Measures> measure(const Result& result, std::span<const Example> e
   if (!placed) return std::nullopt;
   input.origins = &placed->origins;
   return measure(std::get<LabeledField>(example.content).field, placed->field, input, {}, progress);
+}
+
+std::optional<Content> measureContent(const Result& result, std::span<const Example> examples,
+                                      const Progress& progress) {
+  if (result.form() != Form::Labels) return std::nullopt;
+  std::vector<const LabelGrid*> grids;
+  for (const Example& example : examples) grids.push_back(&example.labels());
+  return measureContent(grids, result.labels(), progress);
+}
+
+Content measureContent(const Source& result, const Example& example, const Progress& progress) {
+  ReadOptions options = example.reading;
+  options.resolution.reset();
+  std::vector<Example> both{example, readExample(result, options, progress.part(0, 0.3))};
+  if (both[1].kind != SourceKind::Labels && both[1].kind != SourceKind::Picture)
+    throw InputError(result.name() + ": a result of labels is a .txt, .vox, .vdb or a picture");
+  // A grid of pieces or blocks is written by their numbers.
+  both[0].content = both[1].kind == SourceKind::Picture ? both[0].content : LabelContent{};
+  numberAlike(both);
+  return measureContent(both[0].labels(), both[1].labels(), progress.part(0.3, 1));
 }
 
 Measured readMeasured(const Source& result, const std::optional<Source>& origins,

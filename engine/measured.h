@@ -22,6 +22,15 @@ std::optional<Measures> measure(const Result& result, std::span<const Example> e
                                 const TriangleMesh* surface = nullptr,
                                 const Progress& progress = {});
 
+/// What a complete result of labels holds, against its examples; of frames, the first. Nothing for
+/// results of distances. Throws `Cancelled`.
+std::optional<Content> measureContent(const Result& result, std::span<const Example> examples,
+                                      const Progress& progress = {});
+/// The same of a result in a file: a grid of labels or a picture, numbered as the example's labels
+/// are where it is a .txt or .vdb, by color otherwise. `example` is of the form Labels. Throws
+/// `InputError` and `Cancelled`.
+Content measureContent(const Source& result, const Example& example, const Progress& progress = {});
+
 /// What is measured against an example: a result, as it was made or read from files.
 struct Measured {
   DistanceField field;

@@ -3,10 +3,12 @@
 
 // Model synthesis: from labels to labels.
 
+#include <cstdio>
 #include <utility>
 
 #include "core/error.h"
 #include "engine/engines.h"
+#include "engine/measured.h"
 #include "engine/model_request.h"
 
 namespace exemplar {
@@ -35,6 +37,40 @@ Statistics statisticsOf(const ModelResult& made, const Example& example, const V
           {"exact_solver_calls", s.exact},
           {"moves", s.moves},
           {"moves_kept", s.movesKept}};
+}
+
+/// Results of at most so many cells are looked at for what they hold; more would take seconds.
+constexpr std::size_t kMostMeasured = 4'000'000;
+
+std::string times(double ratio) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", ratio);
+  return text;
+}
+
+/// What people should know where a result keeps every adjacency and is not the example's kind.
+void judgeContent(const Content& c, bool smaller, Result& result) {
+  result.statistics.emplace_back("labels_used", c.labelsUsed);
+  if (c.density) result.statistics.emplace_back("density", *c.density);
+  result.statistics.emplace_back("objects_per_100_columns", c.objects);
+  result.statistics.emplace_back("objects_per_100_columns_example", c.exampleObjects);
+  const std::string help = "; try another `seed`, another `choice`, or a `weight` for what is rare";
+  if (c.density && (*c.density < 0.6 || *c.density > 1.6)) {
+    result.warnings.push_back("the result holds " + times(*c.density) +
+                              " times as much in each column as the example" + help);
+  }
+  if (!smaller && c.labelsUsed < 0.9) {
+    result.warnings.push_back("the result shows " + times(100 * c.labelsUsed) +
+                              " % of the example's labels" + help);
+  }
+  if (c.density && c.exampleObjects > 0 && !smaller) {
+    const double ratio = c.objects / c.exampleObjects;
+    if (ratio < 0.4 || ratio > 2.5) {
+      result.warnings.push_back("the result has " + times(ratio) +
+                                " times as many separate objects for its area as the example" +
+                                help);
+    }
+  }
 }
 
 /// Refuses settings of a method that is not the one.
@@ -87,7 +123,7 @@ class ModelEngine final : public Engine {
     std::vector<LabelGrid> grids;
     for (const Example& example : examples) grids.push_back(example.labels());
 
-    ModelResult made = synthesizeModel(grids, adjacency, options, progress);
+    ModelResult made = synthesizeModel(grids, adjacency, options, progress.part(0, 0.9));
     Result result;
     result.outcome = made.outcome;
     result.statistics = statisticsOf(made, examples.front(), options.size);
@@ -106,6 +142,12 @@ class ModelEngine final : public Engine {
     result.laterFrames.assign(std::make_move_iterator(made.frames.begin() + 1),
                               std::make_move_iterator(made.frames.end()));
     result.origins = std::move(made.origins.front());
+    const LabelGrid& first = result.labels();
+    if (first.cells.count() <= kMostMeasured) {
+      const Vec3i n = first.size(), example = grids.front().size();
+      judgeContent(*measureContent(result, examples, progress.part(0.9, 1)),
+                   n.x < example.x || n.y < example.y, result);
+    }
     return result;
   }
 };

@@ -69,7 +69,6 @@ void writePage(const ResultPage& result, Json run, const RenderOptions& picture,
     head["voxel_size"] = result.exampleField->voxelSize;
   }
   head["has_origins"] = result.origins != nullptr;
-  head["figures"] = Json::array();
   ReportPage page;
   page.addPicture("example", render(result.exampleMesh, picture, progress.part(0, 0.2)));
   page.addPicture("result", render(result.mesh, picture, progress.part(0.2, 0.4)));
@@ -84,9 +83,7 @@ void writePage(const ResultPage& result, Json run, const RenderOptions& picture,
   run["view"] = run["picture"] = "result";
   if (result.origins) run["marks"] = toJson(parts.marks);
   if (result.field) run["samples"] = toJson(result.field->size());
-  for (const Figure& figure : figures(Measures{}))
-    head["figures"].push_back(
-        {{"group", figure.group}, {"key", figure.key}, {"meaning", figure.meaning}});
+  head["figures"] = figureMeanings();
   head["runs"].push_back(std::move(run));
   requireMemory(3.0 * static_cast<double>(page.bytes()), result.page.string(),
                 "leave the report out");

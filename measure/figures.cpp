@@ -126,6 +126,31 @@ std::vector<Figure> figures(const Measures& measures) {
   return std::move(list.figures);
 }
 
+std::vector<Figure> figures(const Content& c) {
+  List list;
+  list.group("content");
+  list.add("labels_used", c.labelsUsed, "share of the example's labels; 1 is best");
+  list.add("label_shares", c.labelShares, "distance of the labels' shares, 0..1; 0 is best");
+  list.add("density", c.density, "built cells per column over the example's; 1 is best");
+  list.add("layers", c.layers, "difference of what is built at each height; 0 is best");
+  list.add("objects", c.objects, "objects for each 100 columns");
+  list.add("objects_example", c.exampleObjects, "objects for each 100 columns of the example");
+  list.add("objects_from", std::int64_t{c.objectsFrom}, "the layer from which up they are counted");
+  list.add("object_sizes", c.objectSizes, "Kolmogorov-Smirnov distance of sizes; 0 is best");
+  list.add("runs_x", c.runs[0], "mean straight run over the example's; 1 is best");
+  list.add("runs_y", c.runs[1], "the same along y");
+  list.add("runs_z", c.runs[2], "the same along z");
+  list.add("js1", c.divergence[0], "divergence of built labels, bits, 0..1; 0 is best");
+  list.add("js2", c.divergence[1], "of blocks of 2 cells a side");
+  list.add("js3", c.divergence[2], "of blocks of 3 cells a side");
+  list.add("js1_halves", c.halvesDivergence[0], "between two halves of the example");
+  list.add("js2_halves", c.halvesDivergence[1], "between two halves of the example");
+  list.add("js3_halves", c.halvesDivergence[2], "between two halves of the example");
+  list.add("in3", c.known, "blocks of 3 cells a side that the example shows; 1 for copies");
+  list.add("copy8", c.copied, "windows of 8 x 8 columns verbatim in the example; 0 is new");
+  return std::move(list.figures);
+}
+
 std::string figuresTable(const std::vector<Figure>& figures) {
   std::size_t keys = 0, values = 0;
   for (const Figure& f : figures) {

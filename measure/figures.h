@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "measure/content.h"
 #include "measure/measure.h"
 
 namespace exemplar {
@@ -15,7 +16,8 @@ namespace exemplar {
 /// One figure by name: what a table prints and JSON holds. `monostate` (null) is a figure that was
 /// not measured or has no meaning for this input.
 struct Figure {
-  std::string group;  ///< "likeness", "novelty", "seams", "mesh", "collapse": an object in JSON
+  std::string group;  ///< "likeness", "novelty", "seams", "mesh", "collapse",
+                      ///< "content": an object in JSON
   std::string key;    ///< lower case, unique within its group: "lp_dense"
   std::variant<std::monostate, bool, std::int64_t, double, std::string> value;
   std::string meaning;  ///< a few words for a table: what it is, and what is good
@@ -23,6 +25,8 @@ struct Figure {
 
 /// All figures in the order in which they are read, groups together.
 std::vector<Figure> figures(const Measures& measures);
+/// Those of labels.
+std::vector<Figure> figures(const Content& content);
 
 /// The figures as lines of text for a terminal, a heading for each group; "-" for what is null.
 std::string figuresTable(const std::vector<Figure>& figures);

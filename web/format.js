@@ -85,11 +85,29 @@ const kFigures = {
   'seams.seam_share': { label: 'Faces at seams', from: 0 },
   'seams.eikonal_residual': { label: 'Distance error', unit: '| |∇φ| − 1 |', from: 0 },
   'seams.eikonal_residual_example': { label: 'Distance error, example', unit: '| |∇φ| − 1 |', from: 0 },
+  'content.labels_used': { label: 'Labels used', best: 1, from: 0, to: 1 },
+  'content.label_shares': { label: 'Difference of label shares', best: 0, from: 0, to: 1 },
+  'content.density': { label: 'Built cells', unit: '× example', best: 1, from: 0.5, to: 1.5 },
+  'content.layers': { label: 'Difference by height', best: 0, from: 0 },
+  'content.objects': { label: 'Objects', unit: 'per 100 columns' },
+  'content.objects_example': { label: 'Objects, example', unit: 'per 100 columns' },
+  'content.object_sizes': { label: 'Difference of object sizes', best: 0, from: 0, to: 1 },
+  'content.runs_x': { label: 'Runs along x', unit: '× example', best: 1 },
+  'content.runs_y': { label: 'Runs along y', unit: '× example', best: 1 },
+  'content.runs_z': { label: 'Runs along z', unit: '× example', best: 1 },
+  'content.js1': { label: 'Divergence of labels', unit: 'bits', best: 0, from: 0, to: 1 },
+  'content.js2': { label: 'Divergence of 2³ blocks', unit: 'bits', best: 0, from: 0, to: 1 },
+  'content.js3': { label: 'Divergence of 3³ blocks', unit: 'bits', best: 0, from: 0, to: 1 },
+  'content.js1_halves': { label: 'Divergence of labels, halves', unit: 'bits', from: 0, to: 1 },
+  'content.js2_halves': { label: 'Divergence of 2³ blocks, halves', unit: 'bits', from: 0, to: 1 },
+  'content.js3_halves': { label: 'Divergence of 3³ blocks, halves', unit: 'bits', from: 0, to: 1 },
+  'content.in3': { label: 'Known 3³ blocks', from: 0, to: 1 },
+  'content.copy8': { label: 'Verbatim windows', best: 0, from: 0, to: 1 },
 };
 /// The figures that are shown first.
 const kMain = [
   'likeness.lp_dense', 'likeness.coverage', 'likeness.occupancy_ratio', 'likeness.surface_ratio',
-  'novelty.used_share', 'novelty.verbatim_run', 'seams.seam_jump_near_surface', 'seams.seam_share',
+  'novelty.used_share', 'novelty.verbatim_run', 'seams.seam_jump_near_surface', 'seams.seam_share', 'content.density', 'content.labels_used', 'content.layers', 'content.object_sizes',
 ];
 
 /// What is known of engines by the first word of their name; settings may follow after a colon.

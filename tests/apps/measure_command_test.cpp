@@ -55,6 +55,31 @@ TEST(MeasureCommand, ScoresAMeshAsTheFieldItWasContouredFrom) {
   }
 }
 
+TEST(MeasureCommand, MeasuresWhatLabelsHold) {
+  const TestFolder folder;
+  const std::string castle = std::string(EXEMPLAR_SOURCE_DIR) + "/scenes/castle.toml";
+  for (const std::string made : {"r.txt", "r.vdb"}) {
+    ASSERT_EQ(runExemplar("synth " + castle + " -o " + made, folder.path()).status, 0);
+    const auto run = runExemplar("measure " + castle + " " + made + " --json -", folder.path());
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto content = nlohmann::json::parse(run.out)["content"];
+    EXPECT_GT(content["labels_used"].get<double>(), 0.4);
+    EXPECT_GT(content["density"].get<double>(), 0.3);
+    EXPECT_LT(content["copy8"].get<double>(), 0.5);
+    EXPECT_FALSE(content["js3_halves"].is_null());
+  }
+  // An example against itself, by its own cells: nothing differs and everything is copied.
+  ASSERT_EQ(runExemplar("voxelize " + castle + " -o c.txt", folder.path()).status, 0);
+  const auto same = runExemplar("measure c.txt c.txt --json -", folder.path());
+  ASSERT_EQ(same.status, 0) << same.err;
+  const auto content = nlohmann::json::parse(same.out)["content"];
+  EXPECT_EQ(content["js3"], 0.0);
+  EXPECT_EQ(content["copy8"], 1.0);
+  const auto report = runExemplar("measure c.txt c.txt --report r.html", folder.path());
+  EXPECT_EQ(report.status, 2);
+  EXPECT_THAT(report.err, HasSubstr("--report: has no meaning for a result of labels"));
+}
+
 TEST(MeasureCommand, RefusesASizeThatCannotBe) {
   const TestFolder folder;
   makeExample(folder);
