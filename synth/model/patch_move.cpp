@@ -144,22 +144,27 @@ void PatchMove::findMembers() {
     member_.resize(places);
     now_ = 1;
   }
-  Vec3i step;
+  // Cells that have the source's label are at fault with nothing: they are not followed.
+  const PatchSource& source = sources_[alignment_.source];
   const CellBox& core = patch_.core;
+  Vec3i step;
   for (step.x = core.begin.x; step.x < core.end.x; ++step.x) {
     for (step.y = core.begin.y; step.y < core.end.y; ++step.y) {
+      Vec3i p{window_.center.x + step.x, window_.center.y + step.y, 0};
+      if (o.periodic.x) p.x = wrapped(p.x, o.size.x);
+      if (o.periodic.y) p.y = wrapped(p.y, o.size.y);
+      if (p.x < 0 || p.y < 0 || p.x >= o.size.x || p.y >= o.size.y) continue;
       for (step.z = core.begin.z; step.z < core.end.z; ++step.z) {
-        if (sourceLabel(step, 0) == SymmetryGroup::kNoImage) continue;
-        Vec3i p = window_.center + step;
-        bool inside = true;
-        for (int axis = 0; axis < 3; ++axis) {
-          if (o.periodic[axis]) p[axis] = wrapped(p[axis], o.size[axis]);
-          inside = inside && p[axis] >= 0 && p[axis] < o.size[axis];
-        }
-        if (!inside) continue;
+        const Vec3i from = alignment_.cell + step;
+        if (!source.contains(from, alignment_.frame)) continue;
+        p.z = window_.center.z + step.z;
+        if (o.periodic.z) p.z = wrapped(p.z, o.size.z);
+        if (p.z < 0 || p.z >= o.size.z) continue;
         const std::int64_t at = problem_.position(p, window_.frame);
         const std::int32_t cell = problem_.cell(at);
         if (cell < 0 || (images_ && problem_.positionOf(cell) != at)) continue;
+        const Label label = source.at(from, alignment_.frame);
+        if (label == labels_[cell] || label == SymmetryGroup::kNoImage) continue;
         if (stamp_[local(step, 0)] != now_) add(cell, step, 0);
       }
     }
