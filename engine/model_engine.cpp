@@ -3,7 +3,9 @@
 
 // Model synthesis: from labels to labels.
 
+#include <algorithm>
 #include <cstdio>
+#include <string>
 #include <utility>
 
 #include "core/error.h"
@@ -49,12 +51,17 @@ std::string times(double ratio) {
 }
 
 /// What people should know where a result keeps every adjacency and is not the example's kind.
-void judgeContent(const Content& c, bool smaller, Result& result) {
+void judgeContent(const Content& c, bool smaller, const ModelOptions& options, Result& result) {
   result.statistics.emplace_back("labels_used", c.labelsUsed);
   if (c.density) result.statistics.emplace_back("density", *c.density);
   result.statistics.emplace_back("objects_per_100_columns", c.objects);
   result.statistics.emplace_back("objects_per_100_columns_example", c.exampleObjects);
-  const std::string help = "; try another `seed`, another `choice`, or a `weight` for what is rare";
+  const bool ends = std::any_of(options.sides.begin(), options.sides.begin() + 4,
+                                [](const SideRule& s) { return s.kind != SideRule::Kind::Free; });
+  const std::string help =
+      options.moves == 0 ? "; with `moves` of 1 or more it comes nearer"
+      : ends ? "; try more `moves`, `side` all=free where things cannot end, or a larger `size`"
+             : "; try more `moves`, another `seed`, or a larger `size`";
   if (c.density && (*c.density < 0.6 || *c.density > 1.6)) {
     result.warnings.push_back("the result holds " + times(*c.density) +
                               " times as much in each column as the example" + help);
@@ -137,6 +144,10 @@ class ModelEngine final : public Engine {
           "smaller `size`, or a larger `budget`";
     }
     if (made.outcome != Outcome::Complete) return result;
+    if (cutAtSides(examples.front()).any() && settings.side.empty())
+      result.notes.emplace_back("sides", "free along " +
+                                             readableAxes(cutAtSides(examples.front())) +
+                                             ", where the example cuts objects off");
     result.notes.emplace_back("method", made.statistics.whole ? "in one pass" : "in blocks");
     result.data = std::move(made.frames.front());
     result.laterFrames.assign(std::make_move_iterator(made.frames.begin() + 1),
@@ -146,7 +157,7 @@ class ModelEngine final : public Engine {
     if (first.cells.count() <= kMostMeasured) {
       const Vec3i n = first.size(), example = grids.front().size();
       judgeContent(*measureContent(result, examples, progress.part(0.9, 1)),
-                   n.x < example.x || n.y < example.y, result);
+                   n.x < example.x || n.y < example.y, options, result);
     }
     return result;
   }

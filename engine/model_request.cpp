@@ -166,8 +166,39 @@ void readLimits(const ModelSettings& settings, const LabelGrid& grid, ModelOptio
     model.connected.push_back(parseLabels(text, grid, "`connect`"));
 }
 
-/// Where a result may end: a picture, and a field cut by its box, are windows into something
-/// larger.
+/// Whether the outermost layers across `axis` (x or y) cut objects off: show, beside what is most
+/// frequent at a height, labels that occur further inside, too. The ends of a ground do not, for
+/// they are pieces of their own.
+bool cutsObjects(const LabelGrid& grid, int axis) {
+  const Vec3i n = grid.size();
+  if (n.x < 3 || n.y < 3) return false;
+  for (int z = 0; z < n.z; ++z) {
+    std::map<Label, int> all;
+    std::set<Label> inside, outermost;
+    Vec3i p{0, 0, z};
+    for (p.y = 0; p.y < n.y; ++p.y) {
+      for (p.x = 0; p.x < n.x; ++p.x) {
+        const Label label = grid.cells[p];
+        ++all[label];
+        if (p[axis] == 0 || p[axis] == n[axis] - 1) {
+          outermost.insert(label);
+        } else if (p.x > 0 && p.y > 0 && p.x < n.x - 1 && p.y < n.y - 1) {
+          inside.insert(label);
+        }
+      }
+    }
+    const auto most = std::max_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    for (const Label label : outermost) {
+      if (label != most->first && !isEmpty(grid.labels[label]) && inside.contains(label))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Where a result may end: a picture, a field cut by its box, and labels that reach their sides are
+/// windows into something larger.
 void usualSides(const Example& example, ModelOptions& model) {
   if (std::holds_alternative<ImageLabels>(example.content))
     model.sides.fill(SideRule{SideRule::Kind::Free, {}});
@@ -175,6 +206,13 @@ void usualSides(const Example& example, ModelOptions& model) {
     const std::array<bool, 6> cut = cutSides(labeled->field);
     for (std::size_t side = 0; side < cut.size(); ++side)
       if (cut[side]) model.sides[side].kind = SideRule::Kind::Free;
+    return;
+  }
+  const Axes cut = cutAtSides(example);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!cut[axis]) continue;
+    // What runs along an axis and is cut at one end may be cut at the other, too.
+    model.sides[2 * axis].kind = model.sides[2 * axis + 1].kind = SideRule::Kind::Free;
   }
 }
 
@@ -241,7 +279,8 @@ const SettingTable<ModelSettings>& modelSettings() {
       textsRow(
           "side", &O::side,
           "what may be at a side of the result: SIDE=example (the default), SIDE=free (that of "
-          "pictures) or SIDE=LABEL,...; left, right, front, back, bottom, top or all"),
+          "pictures, and of sides at which the example cuts objects off) or SIDE=LABEL,...; left, "
+          "right, front, back, bottom, top or all"),
       {{.key = "mask",
         .type = SettingType::File,
         .meaning = "a .png seen from above: black cells are holes, left empty; or a .txt, .vox or "
@@ -347,6 +386,15 @@ Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions&
   std::vector<LabelGrid> grids;
   for (const Example& example : examples) grids.push_back(example.labels());
   return findAdjacency(grids, options);
+}
+
+Axes cutAtSides(const Example& example) {
+  Axes cut;
+  if (std::holds_alternative<ImageLabels>(example.content) ||
+      std::holds_alternative<LabeledField>(example.content))
+    return cut;
+  for (int axis = 0; axis < 2; ++axis) cut[axis] = cutsObjects(example.labels(), axis);
+  return cut;
 }
 
 Vec3i cellsOfExample(const Example& example) {

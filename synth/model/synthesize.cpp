@@ -136,8 +136,12 @@ Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelCh
     return labeling;
   };
   if (method == ModelMethod::Whole) return whole(std::nullopt);
-  if (method == ModelMethod::Auto && problem.options().moves > 0) {
-    // Patches bring what is to be there: ground is enough to begin with.
+  // Patches bring what is to be there: ground is enough to begin with. Where things run over the
+  // sides, though, patches have nothing to end them with: there has to be something to go on from.
+  const auto& sides = problem.options().sides;
+  const bool ends = std::none_of(sides.begin(), sides.begin() + 4,
+                                 [](const SideRule& s) { return s.kind == SideRule::Kind::Free; });
+  if (method == ModelMethod::Auto && problem.options().moves > 0 && ends) {
     const Progress first = progress.part(0, 0.2);
     Labeling plain =
         labelWhole(problem, base, chooser, statistics, first, problem.options().patience, true);

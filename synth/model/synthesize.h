@@ -83,8 +83,8 @@ struct ModelOptions {
   int rounds = 1;           ///< over all blocks, 1..100
 
   /// Patches of the example tried for each column of the result after it is labeled, so that blocks
-  /// occur as often as in the example (`annealPatches`); 0: none. With some, `Auto` begins with the
-  /// most frequent labels.
+  /// occur as often as in the example (`annealPatches`); 0: none. With some, and
+  /// no vertical side free, `Auto` begins with the most frequent labels.
   double moves = 8;
   /// What a window of 8 x 8 columns costs then that stands verbatim in the example, >= 0, in blocks
   /// that occur once too often.
