@@ -88,6 +88,8 @@ void checkMethod(const Settings& given, const ModelSettings& settings) {
       if (given.has(key))
         throw InputError("`" + std::string(key) + "`: `method` whole has no blocks; leave it out");
   }
+  if (settings.options.moves == 0 && given.has("copy-price"))
+    throw InputError("`copy-price`: has no effect with `moves` 0; leave it out");
   if (method == ModelMethod::Blocks && given.has("patience"))
     throw InputError("`patience`: only `method` auto has it");
   if (given.has("mirrored-x") && !settings.mirror.x && settings.options.symmetry.turns == 1)

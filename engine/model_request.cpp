@@ -246,7 +246,7 @@ const SettingTable<ModelSettings>& modelSettings() {
           "choice", [](O & o) -> auto& { return o.options.choice; },
           "how probable labels are: as frequent as in the example beside the neighbors, in like "
           "surroundings of 3 x 3 x 3 cells (resemblance), or all over (frequency); or all alike "
-          "(uniform)",
+          "(uniform); with `moves` that of cells between patches",
           {{"neighbors", LabelChoice::Neighbors},
            {"resemblance", LabelChoice::Resemblance},
            {"frequency", LabelChoice::Frequency},

@@ -30,7 +30,7 @@ namespace exemplar {
 /// does. Weights of labels multiply the counts of the blocks that hold them. Along an axis that is
 /// shorter than a block, blocks are that much shorter.
 ///
-/// Blocks are told apart by hashes of 64 bits. Memory: 8 bytes a cell.
+/// Blocks are known by hashes of 64 bits. Memory: 8 bytes a cell.
 class BlockCounts {
  public:
   static constexpr int kSides = 3;
