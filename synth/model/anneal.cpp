@@ -21,13 +21,13 @@ namespace exemplar {
 namespace {
 
 /// Columns around a move's center that may change, and how far the center may be shifted.
-constexpr int kReach = 11, kShift = 3;
+constexpr int kReach = 18, kShift = 3;
 /// How long cores are at most, in columns: first, and at last; and how wide.
 constexpr int kLongest = 14, kLongestAtLast = 6, kWidest = 8;
 /// How long they are at least, first: small patches alone would not begin anything large.
 constexpr int kShortest = 7;
 /// How far implications are followed at most, and how wide a rim is, in cells.
-constexpr int kGrow = 4, kRim = 3;
+constexpr int kGrow = 14, kRim = 3;
 /// Conflicts that a patch may have for each column along its border, at last; few at first: what
 /// comes whole is to come before what must be mended.
 constexpr double kConflicts = 1.6;
@@ -193,7 +193,7 @@ void PatchAnnealing::propose(Proposal& proposal, std::uint64_t number, const Vec
   const CellBox box{{-inner, -inner, -options_.size.z}, {inner + 1, inner + 1, options_.size.z}};
   patch.core = patch.core & box;
   patch.grown = patch.core.grown(draws.between(0, kGrow)) & box;
-  const Vec3i grown = patch.grown.size();
+  const Vec3i grown = min(patch.core.size() + Vec3i{8, 8, 0}, patch.grown.size());
   patch.mostConflicts = 2 + static_cast<int>(kConflicts * 2 * (grown.x + grown.y) * done_);
   patch.rim = draws.between(1, kRim);
   proposal.threshold = -temperature_ * std::log(1 - draws.uniform());

@@ -25,8 +25,8 @@ namespace exemplar {
 /// "Fast approximate energy minimization via graph cuts", PAMI 23(11), 2001; for shifts of an
 /// example: Pritch, Kav-Venaki, Peleg, "Shift-map image editing", ICCV 2009) are implications, "if
 /// this cell takes the example's label, so must its neighbor". From the core of the patch they are
-/// followed to the border of a box; an object whose cells cannot stand beside air comes, or goes,
-/// as a whole. Mostly nothing is at fault then, and nothing had to be searched. What is, is a
+/// followed to the border of a box; an object whose cells air cannot border on comes, or goes, as
+/// a whole. Mostly nothing is at fault then, and nothing had to be searched. What is, is a
 /// conflict: the cells around it are a `Region`, set free and labeled by search, the label in place
 /// first, then the example's. Where that does not succeed nothing changes.
 ///
