@@ -66,7 +66,7 @@ class PatchAnnealing {
   void propose(Proposal& proposal, std::uint64_t number, const Vec3i& place);
   Vec3i worst(Draws& draws, const Vec3i& place) const;
   double gainByMaps(const Proposal& proposal) const;
-  void show(Proposal& proposal);
+  void show(Proposal& proposal, bool estimate = false);
   void takeBack(const Proposal& proposal);
   bool weigh(const Proposal& proposal);
 
@@ -201,7 +201,7 @@ void PatchAnnealing::propose(Proposal& proposal, std::uint64_t number, const Vec
   const auto alignment = alignments_.find(draws, window, patch.core, grid_, kAgreement * done_);
   if (!alignment) return;
   const auto worth = [&] {
-    show(proposal);
+    show(proposal, true);
     for (const auto& c : proposal.changed) grid_[problem_.position(c.cell, c.frame)] = c.before;
     return counts_.estimate(proposal.blocks) <= proposal.threshold + kSlack;
   };
@@ -229,7 +229,7 @@ double PatchAnnealing::gainByMaps(const Proposal& proposal) const {
 }
 
 /// Shows the changed labels in the grid, and finds out which blocks they touch.
-void PatchAnnealing::show(Proposal& proposal) {
+void PatchAnnealing::show(Proposal& proposal, bool estimate) {
   proposal.changed.clear();
   proposal.low = options_.size;
   proposal.high = {0, 0, 0};
@@ -250,7 +250,7 @@ void PatchAnnealing::show(Proposal& proposal) {
     for (std::int64_t i = imageBegin_[b.cell]; i < imageBegin_[b.cell + 1]; ++i)
       change(images_[i], labels_[b.cell]);
   }
-  counts_.look(grid_, proposal.changed, proposal.blocks);
+  counts_.look(grid_, proposal.changed, proposal.blocks, estimate);
 }
 
 void PatchAnnealing::takeBack(const Proposal& proposal) {

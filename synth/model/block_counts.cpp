@@ -4,6 +4,7 @@
 #include "synth/model/block_counts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -265,7 +266,7 @@ void BlockCounts::count(std::span<const Label> grid, const Progress& progress) {
 }
 
 void BlockCounts::look(std::span<const Label> grid, std::span<const Changed> changed,
-                       Change& change) const {
+                       Change& change, bool largestOnly) const {
   for (auto& list : change.touched) list.clear();
   if (changed.empty()) return;
   const std::int32_t none = static_cast<std::int32_t>(code_.size()) - 1;
@@ -282,7 +283,7 @@ void BlockCounts::look(std::span<const Label> grid, std::span<const Changed> cha
     last = std::max(last, c.frame);
   }
   const int frames = last - first + 1;
-  for (int side = 1; side < kSides; ++side) {
+  for (int side = largestOnly ? kSides - 1 : 1; side < kSides; ++side) {
     const Vec3i n = shape_[side];
     Vec3i corner = low - n + Vec3i{1, 1, 1};
     Vec3i box = high - corner + Vec3i{1, 1, 1};
@@ -304,6 +305,10 @@ void BlockCounts::look(std::span<const Label> grid, std::span<const Changed> cha
         for (int j = q.y - n.y + 1; j <= q.y; ++j) {
           const int y = j < 0 ? j + box.y : j;
           std::uint64_t* column = columnAt(x, y, c.frame - first);
+          if (words == 1 && q.z >= n.z - 1) {
+            *column |= ((std::uint64_t{1} << n.z) - 1) << (q.z - n.z + 1);
+            continue;
+          }
           for (int k = q.z - n.z + 1; k <= q.z; ++k) {
             const int z = k < 0 ? k + box.z : k;
             column[z / 64] |= std::uint64_t{1} << (z % 64);
@@ -323,6 +328,11 @@ void BlockCounts::look(std::span<const Label> grid, std::span<const Changed> cha
           const std::span<const std::uint64_t> column(columnAt(x, y, t), words);
           int begin = 0, end = box.z;
           const auto touched = [&](int z) { return column[z / 64] >> (z % 64) & 1; };
+          if (words == 1) {
+            if (column[0] == 0) continue;
+            begin = std::countr_zero(column[0]);
+            end = 64 - std::countl_zero(column[0]);
+          }
           while (begin < end && !touched(begin)) ++begin;
           while (begin < end && !touched(end - 1)) --end;
           if (begin == end) continue;

@@ -62,7 +62,9 @@ class BlockCounts {
   };
   /// Finds what `changed` touches. O(changed cells x 27). Threads may look at the same
   /// time, each into its own `change`, where what they touch is apart.
-  void look(std::span<const Label> grid, std::span<const Changed> changed, Change& change) const;
+  /// With `largestOnly` blocks of 2 cells a side are left out, for an estimate.
+  void look(std::span<const Label> grid, std::span<const Changed> changed, Change& change,
+            bool largestOnly = false) const;
 
   /// About what `add` would return, without counting: blocks that a change touches several times
   /// are taken one by one.
