@@ -21,7 +21,7 @@ namespace exemplar {
 /// more or fewer there are than in the example times the ratio of areas (`BlockCounts`), and a
 /// price for each window of 8 x 8 columns that is verbatim in the example (`CopiedWindows`).
 ///
-/// A move takes a core of 1 to 14 columns each way, at times of part of the height, near a block
+/// A move takes a core of 1 to 14 by 1 to 8 columns, at times of part of the height, near a block
 /// that is unknown or too frequent; of some places in the example the one that agrees best with
 /// what is around (`PatchAlignments`); and puts that in so that every pair stays one of the
 /// example's, by implication and by a search in a narrow rim (`PatchMove`), within the labels that

@@ -382,16 +382,20 @@ TEST(AnnealPatches, KeepsPairsAtFurtherOffsets) {
 }
 
 TEST(AnnealPatches, AHighPriceForCopiesLeavesFewer) {
-  const LabelGrid example = test::city();
-  const auto copies = [&](double price) {
-    ModelOptions o = sized({30, 30, example.size().z});
-    o.copyPrice = price;
-    Labeled l(example, o);
-    ModelStatistics statistics;
-    annealPatches(l.problem, l.base, l.chooser, std::span(&l.example, 1), l.labels, statistics);
-    CopiedWindows windows(l.problem, l.sources);
-    windows.count(l.grid());
-    return windows.copies();
+  const auto copies = [](double price) {
+    std::int64_t sum = 0;
+    for (const auto make : {test::canyon, test::parliament, test::gadgets, test::figure36}) {
+      const LabelGrid example = make();
+      ModelOptions o = sized({26, 26, example.size().z});
+      o.copyPrice = price;
+      Labeled l(example, o);
+      ModelStatistics statistics;
+      annealPatches(l.problem, l.base, l.chooser, std::span(&l.example, 1), l.labels, statistics);
+      CopiedWindows windows(l.problem, l.sources);
+      windows.count(l.grid());
+      sum += windows.copies();
+    }
+    return sum;
   };
   EXPECT_LT(copies(100), copies(0));
 }
