@@ -34,6 +34,9 @@ enum Name : std::uint32_t {
   kFigureLearning = 0x46494732,  ///< trial results in which weights are learned
   // sdf
   kDetailPlaces = 0xde7a,  ///< where a surface is looked at for its detail
+  kPatchMoves = 0x4C424C34,   ///< which patch of the example goes where
+  kPatchRims = 0x4C424C36,    ///< which labels close the gap around a patch
+  kPatchPlaces = 0x4C424C35,  ///< where patches go that are tried at once
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,

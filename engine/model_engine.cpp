@@ -3,6 +3,7 @@
 
 // Model synthesis: from labels to labels.
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -54,7 +55,9 @@ Statistics statisticsOf(const ModelResult& made, const Example& example, const V
           {"repairs", s.repairs},
           {"blocks", s.blocks},
           {"blocks_kept", s.blocksKept},
-          {"exact_solver_calls", s.exact}};
+          {"exact_solver_calls", s.exact},
+          {"moves", s.moves},
+          {"moves_kept", s.movesKept}};
 }
 
 /// Results of at most so many cells are looked at for what they hold; more would take seconds.
@@ -67,12 +70,17 @@ std::string times(double ratio) {
 }
 
 /// What people should know where a result keeps every adjacency and is not the example's kind.
-void judgeContent(const Content& c, bool smaller, Result& result) {
+void judgeContent(const Content& c, bool smaller, const ModelOptions& options, Result& result) {
   result.statistics.emplace_back("labels_used", c.labelsUsed);
   if (c.density) result.statistics.emplace_back("density", *c.density);
   result.statistics.emplace_back("objects_per_100_columns", c.objects);
   result.statistics.emplace_back("objects_per_100_columns_example", c.exampleObjects);
-  const std::string help = "; try another `seed`, another `choice`, or a `weight` for what is rare";
+  const bool ends = std::any_of(options.sides.begin(), options.sides.begin() + 4,
+                                [](const SideRule& s) { return s.kind != SideRule::Kind::Free; });
+  const std::string help =
+      options.moves == 0 ? "; with `moves` of 1 or more it comes nearer"
+      : ends ? "; try more `moves`, `side` all=free where things cannot end, or a larger `size`"
+             : "; try more `moves`, another `seed`, or a larger `size`";
   if (c.density && (*c.density < 0.6 || *c.density > 1.6)) {
     result.warnings.push_back("the result holds " + times(*c.density) +
                               " times as much in each column as the example" + help);
@@ -106,6 +114,8 @@ void checkMethod(const Settings& given, const ModelSettings& settings) {
       throw InputError("`" + std::string(key) +
                        "`: only `method` blocks has it; add `method` blocks, or leave it out");
   }
+  if (settings.options.moves == 0 && given.has("copy-price"))
+    throw InputError("`copy-price`: has no effect with `moves` 0; leave it out");
   if (given.has("mirrored-x") && !settings.mirror.x && settings.options.symmetry.turns == 1)
     throw InputError("`mirrored-x`: has no effect without `mirror` x");
   if (given.has("mirrored-y") && !settings.mirror.y && settings.options.symmetry.turns == 1)
@@ -177,6 +187,10 @@ class ModelEngine final : public Engine {
     if (std::string taken = imagesTaken(request.settings, settings, examples.front());
         !taken.empty())
       result.warnings.push_back(std::move(taken));
+    if (cutAtSides(examples.front()).any() && settings.side.empty())
+      result.notes.emplace_back("sides", "free along " +
+                                             readableAxes(cutAtSides(examples.front())) +
+                                             ", where the example cuts objects off");
     result.notes.emplace_back("method", made.statistics.whole ? "in one pass" : "in blocks");
     result.data = std::move(made.frames.front());
     result.laterFrames.assign(std::make_move_iterator(made.frames.begin() + 1),
@@ -186,7 +200,7 @@ class ModelEngine final : public Engine {
     if (first.cells.count() <= kMostMeasured) {
       const Vec3i n = first.size(), example = grids.front().size();
       judgeContent(*measureContent(result, examples, progress.part(0.9, 1)),
-                   n.x < example.x || n.y < example.y, result);
+                   n.x < example.x || n.y < example.y, options, result);
     }
     return result;
   }

@@ -189,8 +189,39 @@ void readLimits(const ModelSettings& settings, const LabelGrid& grid, ModelOptio
     model.connected.push_back(parseLabels(text, grid, "`connect`"));
 }
 
-/// Where a result may end: a picture, and a field cut by its box, are windows into something
-/// larger.
+/// Whether the outermost layers across `axis` (x or y) cut objects off: show, beside what is most
+/// frequent at a height, labels that occur further inside, too. The ends of a ground do not, for
+/// they are pieces of their own.
+bool cutsObjects(const LabelGrid& grid, int axis) {
+  const Vec3i n = grid.size();
+  if (n.x < 3 || n.y < 3) return false;
+  for (int z = 0; z < n.z; ++z) {
+    std::map<Label, int> all;
+    std::set<Label> inside, outermost;
+    Vec3i p{0, 0, z};
+    for (p.y = 0; p.y < n.y; ++p.y) {
+      for (p.x = 0; p.x < n.x; ++p.x) {
+        const Label label = grid.cells[p];
+        ++all[label];
+        if (p[axis] == 0 || p[axis] == n[axis] - 1) {
+          outermost.insert(label);
+        } else if (p.x > 0 && p.y > 0 && p.x < n.x - 1 && p.y < n.y - 1) {
+          inside.insert(label);
+        }
+      }
+    }
+    const auto most = std::max_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    for (const Label label : outermost) {
+      if (label != most->first && !isEmpty(grid.labels[label]) && inside.contains(label))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Where a result may end: a picture, a field cut by its box, and labels that reach their sides are
+/// windows into something larger.
 void usualSides(const Example& example, ModelOptions& model) {
   const Axes& periodic = example.reading.image.periodic;
   for (int axis = 0; axis < 3; ++axis) {
@@ -204,6 +235,13 @@ void usualSides(const Example& example, ModelOptions& model) {
     const std::array<bool, 6> cut = cutSides(labeled->field);
     for (std::size_t side = 0; side < cut.size(); ++side)
       if (cut[side]) model.sides[side].kind = SideRule::Kind::Free;
+    return;
+  }
+  const Axes cut = cutAtSides(example);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!cut[axis]) continue;
+    // What runs along an axis and is cut at one end may be cut at the other, too.
+    model.sides[2 * axis].kind = model.sides[2 * axis + 1].kind = SideRule::Kind::Free;
   }
 }
 
@@ -236,7 +274,7 @@ const SettingTable<ModelSettings>& modelSettings() {
           "choice", [](O & o) -> auto& { return o.options.choice; },
           "how probable labels are: as frequent as in the example beside the neighbors, in like "
           "surroundings of 3 x 3 x 3 cells (resemblance), or all over (frequency); or all alike "
-          "(uniform)",
+          "(uniform); with `moves` that of cells between patches",
           {{"neighbors", LabelChoice::Neighbors},
            {"resemblance", LabelChoice::Resemblance},
            {"frequency", LabelChoice::Frequency},
@@ -256,10 +294,22 @@ const SettingTable<ModelSettings>& modelSettings() {
           "section 4.2), not which labels are chosen; implies method blocks"),
       settingRow<O>("budget", [](O & o) -> auto& { return o.options.budget; },
                     "conflicts that the exact solver may meet in one region", {1, 1e12}),
+      settingRow<O>(
+          "moves", [](O & o) -> auto& { return o.options.moves; },
+          "patches of the example that are tried in each column of the result once it is labeled; "
+          "one is kept if blocks of 1, 2 and 3 cells a side then occur more nearly as often as in "
+          "the example; 0: none",
+          {0, 10000}),
+      settingRow<O>(
+          "copy-price", [](O & o) -> auto& { return o.options.copyPrice; },
+          "what a window of 8 x 8 columns costs that stands verbatim in the example, in blocks "
+          "that occur too often; 0: copies are as good as anything",
+          {0, 1e6}),
       textsRow(
           "side", &O::side,
           "what may be at a side of the result: SIDE=example (the default), SIDE=free (that of "
-          "pictures) or SIDE=LABEL,...; left, right, front, back, bottom, top or all"),
+          "pictures, and of sides at which the example cuts objects off) or SIDE=LABEL,...; left, "
+          "right, front, back, bottom, top or all"),
       {{.key = "mask",
         .type = SettingType::File,
         .meaning = "a .png seen from above: black cells are holes, left empty; or a .txt, .vox or "
@@ -435,6 +485,15 @@ Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions&
   if (const auto* image = std::get_if<ImageLabels>(&examples.front().content))
     return imageAdjacency(grids, *image, all);
   return findAdjacency(grids, all);
+}
+
+Axes cutAtSides(const Example& example) {
+  Axes cut;
+  if (std::holds_alternative<ImageLabels>(example.content) ||
+      std::holds_alternative<LabeledField>(example.content))
+    return cut;
+  for (int axis = 0; axis < 2; ++axis) cut[axis] = cutsObjects(example.labels(), axis);
+  return cut;
 }
 
 Vec3i cellsOfExample(const Example& example) {

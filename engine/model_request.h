@@ -44,6 +44,11 @@ Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions&
 /// How the settings say that the examples are read.
 AdjacencyOptions adjacencyOptions(const ModelSettings& settings);
 
+/// The axes, x and y, at whose sides the example's labels cut objects off: what is at a side there,
+/// beside what is most frequent at its height, occurs further inside, too. Pictures and fields have
+/// none; their sides have rules of their own.
+Axes cutAtSides(const Example& example);
+
 /// Cells of a result that is as large as the example: the example's own, but where blocks overlap.
 Vec3i cellsOfExample(const Example& example);
 

@@ -58,7 +58,7 @@ struct Content {
 };
 
 /// Measures `result` against its examples, which share one numbering of labels with it. Layers
-/// correspond by height from the bottom. O(cells) time, 24 bytes a cell; blocks are told apart by
+/// correspond by height from the bottom. O(cells) time, 24 bytes a cell; blocks are distinguished by
 /// 64-bit hashes. The same at any number of threads. Throws `InputError` where label counts differ
 /// or a grid is empty, and `Cancelled`.
 Content measureContent(std::span<const LabelGrid* const> examples, const LabelGrid& result,

@@ -123,6 +123,9 @@ void ModelProblem::checkOptions() const {
     throw InputError("`rounds` " + std::to_string(o.rounds) + ": must be 1 to 100");
   if (o.budget < 1)
     throw InputError("`budget` " + std::to_string(o.budget) + ": must be 1 or more");
+  if (!(o.moves >= 0) || o.moves > 1e6) throw InputError("`moves`: must be 0 to 1,000,000");
+  if (!(o.copyPrice >= 0) || !std::isfinite(o.copyPrice))
+    throw InputError("`copy-price`: must be 0 or more, and finite");
   if (o.patience < 0)
     throw InputError("`patience` " + std::to_string(o.patience) + ": must be 0 or more");
 
@@ -351,6 +354,7 @@ void ModelProblem::buildNetwork(const Progress& progress) {
   network_.cells = static_cast<int>(positionOf_.size());
   network_.slots = 2 * static_cast<int>(rules.offsets.size());
   network_.support = std::move(rules.support);
+  offsets_ = std::move(rules.offsets);
   network_.neighbor.assign(static_cast<std::size_t>(network_.cells) * network_.slots,
                            network_.cells);
 
@@ -359,7 +363,7 @@ void ModelProblem::buildNetwork(const Progress& progress) {
   for (int c = 0; c < network_.cells; ++c) {
     if (c % kCellsBetweenChecks == 0) progress.check();
     for (int s = 0; s < network_.slots; ++s) {
-      const CellOffset& o = rules.offsets[s / 2];
+      const CellOffset& o = offsets_[s / 2];
       const std::int64_t there = offsetPosition(positionOf_[c], s % 2 ? opposite(o) : o);
       if (there < 0 || cellOf_[there] < 0) continue;
       const int far = cellOf_[there];

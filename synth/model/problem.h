@@ -31,6 +31,9 @@ class ModelProblem {
   const Adjacency& adjacency() const { return *adjacency_; }
   const ModelOptions& options() const { return *options_; }
   const LabelNetwork& network() const { return network_; }
+  const SymmetryGroup& symmetry() const { return symmetry_; }
+  /// The steps to a cell's neighbors along the even slots of the network; the odd ones go back.
+  const std::vector<CellOffset>& offsets() const { return offsets_; }
 
   /// The grid's positions, holes and images included, in column order.
   std::int64_t positions() const { return volume(options_->size) * options_->frames; }
@@ -75,6 +78,7 @@ class ModelProblem {
   const ModelOptions* options_;
   SymmetryGroup symmetry_;
   LabelNetwork network_;
+  std::vector<CellOffset> offsets_;
   std::vector<std::int32_t> cellOf_;
   std::vector<std::int32_t> positionOf_;  // a grid has at most 2^30 positions
   std::vector<std::uint8_t> imageOf_;

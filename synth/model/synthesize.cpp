@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "synth/model/anneal.h"
 #include "synth/model/blocks.h"
 #include "synth/model/catalog.h"
 #include "synth/model/choose.h"
@@ -135,6 +136,18 @@ Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelCh
     return labeling;
   };
   if (method == ModelMethod::Whole) return whole(std::nullopt);
+  // Patches bring what is to be there: ground is enough to begin with. Where things run over the
+  // sides, though, patches have nothing to end them with: there has to be something to go on from.
+  const auto& sides = problem.options().sides;
+  const bool ends = std::none_of(sides.begin(), sides.begin() + 4,
+                                 [](const SideRule& s) { return s.kind == SideRule::Kind::Free; });
+  if (method == ModelMethod::Auto && problem.options().moves > 0 && ends) {
+    const Progress first = progress.part(0, 0.2);
+    Labeling plain =
+        labelWhole(problem, base, chooser, statistics, first, problem.options().patience, true);
+    if (plain.outcome != Outcome::Unfinished) return plain;
+    done = 0.2;
+  }
   if (method == ModelMethod::Auto) {
     // Where blocks are an alternative the whole is not worked on for minutes.
     Labeling soon = whole(problem.options().patience);
@@ -181,7 +194,12 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
     }
     progress.report("counting neighbors in the example", 0.08);
     const LabelChooser chooser(problem, examples, progress);
-    labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, 0.85));
+    const double labeled = options.moves > 0 ? 0.3 : 0.85;
+    labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, labeled));
+    if (labeling.outcome == Outcome::Complete && options.moves > 0) {
+      annealPatches(problem, base, chooser, examples, labeling.labels, result.statistics,
+                    progress.part(labeled, 0.85));
+    }
     if (labeling.outcome == Outcome::Complete) {
       labeling = meetLimits(problem, base, chooser, std::move(labeling.labels), result.statistics,
                             progress.part(0.85, 0.95));

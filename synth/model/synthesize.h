@@ -83,6 +83,14 @@ struct ModelOptions {
   Vec3i block{10, 10, 10};  ///< cells; each component >= 2; blocks overlap by half
   int rounds = 1;           ///< over all blocks, 1..100
 
+  /// Patches of the example tried for each column of the result after it is labeled, so that blocks
+  /// occur as often as in the example (`annealPatches`); 0: none. With some, and
+  /// no vertical side free, `Auto` begins with the most frequent labels.
+  double moves = 8;
+  /// What a window of 8 x 8 columns costs then that stands verbatim in the example, >= 0, in blocks
+  /// that occur once too often.
+  double copyPrice = 40;
+
   std::array<SideRule, 6> sides;  ///< in the order of `Side`
   Axes periodic;      ///< the result tiles along these: its sides there meet and have no rule
   bool loop = false;  ///< the last frame is followed by the first
@@ -123,6 +131,8 @@ struct ModelStatistics {
   std::int64_t blocks = 0;          ///< modified, Blocks only
   std::int64_t blocksKept = 0;      ///< of these, left as they were
   std::int64_t exact = 0;           ///< calls of the exact solver
+  std::int64_t moves = 0;           ///< patches tried
+  std::int64_t movesKept = 0;       ///< of these, kept
   bool whole = true;                ///< in one pass; false: in blocks
 };
 
@@ -150,8 +160,10 @@ struct ModelResult {
 /// cell is left without any, a region around it is taken back and relabeled, by search with
 /// backjumping and then by an exact solver, which finds a labeling or proves that none exists.
 /// So a request is met, or shown to be impossible, or the budget is spent; a result never breaks
-/// the example's rules. Limits on counts and connectedness are met by relabeling regions where
-/// they are broken; where that does not succeed the outcome is Unfinished, not a proof.
+/// the example's rules. Patches of the example are then put in, each by relabeling what is around
+/// it, until blocks of up to 3 x 3 x 3 cells occur as often as in the example. Limits on counts and
+/// connectedness are met by relabeling regions where they are broken; where that does not succeed
+/// the outcome is Unfinished, not a proof.
 ///
 /// `examples` are those that `adjacency` was found in (they share one numbering of labels); looks,
 /// cell size and origins come from them. The same bytes at any number of threads; `Blocks` runs

@@ -44,7 +44,8 @@ constexpr int kRepairsInPlace = 3;
 class WholePass {
  public:
   WholePass(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-            ModelStatistics& statistics, const Progress& progress, std::optional<int> patience)
+            ModelStatistics& statistics, const Progress& progress, std::optional<int> patience,
+            bool plain)
       : problem_(problem),
         network_(problem.network()),
         base_(base),
@@ -52,6 +53,7 @@ class WholePass {
         statistics_(statistics),
         progress_(progress),
         patience_(patience),
+        plain_(plain),
         catalog_(network_) {
     for (int c = 0; c < network_.cells; ++c) catalog_.setDomain(c, base[c]);
   }
@@ -80,6 +82,7 @@ class WholePass {
   ModelStatistics& statistics_;
   const Progress& progress_;
   std::optional<int> patience_;
+  bool plain_;
   Catalog catalog_;
   std::optional<Region> region_;  // made for the first repair
   std::uint64_t repairs_ = 0;
@@ -177,6 +180,7 @@ Labeling WholePass::run() {
     if (c % 1024 == 0) progress_.report("labeling", result.share);
     if (catalog_.decided(c)) continue;
     const auto choose = [&](int cell, std::span<const LabelWord> set, int draw) {
+      if (plain_) return mostFrequent(set);
       return chooser_.choose(chooser_.numbersForPass(), cell, set, draw, placed);
     };
     const std::int32_t one[1] = {c};
@@ -202,8 +206,8 @@ Labeling WholePass::run() {
 
 Labeling labelWhole(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                     ModelStatistics& statistics, const Progress& progress,
-                    std::optional<int> patience) {
-  return WholePass(problem, base, chooser, statistics, progress, patience).run();
+                    std::optional<int> patience, bool plain) {
+  return WholePass(problem, base, chooser, statistics, progress, patience, plain).run();
 }
 
 }  // namespace exemplar

@@ -24,6 +24,9 @@ struct Labeling {
 /// loses all of its labels in this way, the region around it (`Region`) is taken back and
 /// relabeled, by search and then exactly; the region grows until that succeeds.
 ///
+/// With `plain`, cells take the label that is most frequent in the examples of those left, not one
+/// at random: mostly ground and air, soon labeled.
+///
 /// With `patience`, ends Unfinished where all repairs so far take more than that many times the
 /// work of labeling a hundred thousand cells and a quarter of those done so far: the time is then
 /// linear in cells, and regions do not grow past what this allows. Work is counted, not timed, so
@@ -32,6 +35,6 @@ struct Labeling {
 /// Throws `Cancelled`.
 Labeling labelWhole(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                     ModelStatistics& statistics, const Progress& progress,
-                    std::optional<int> patience = std::nullopt);
+                    std::optional<int> patience = std::nullopt, bool plain = false);
 
 }  // namespace exemplar

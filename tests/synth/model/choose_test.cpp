@@ -18,7 +18,7 @@ namespace exemplar {
 namespace {
 
 ModelOptions freeSides(const Vec3i& size, std::uint64_t seed, LabelChoice choice) {
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = size;
   o.seed = seed;
   o.choice = choice;

@@ -60,7 +60,7 @@ int pieces(const LabelGrid& grid, const std::vector<Label>& set) {
 
 TEST(Limits, CountsAreKept) {
   const LabelGrid example = test::figure36();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {22, 22, 1};
   const std::vector<Label> ends = named(example, {"e", "n", "w", "s"});
   const std::vector<Label> bends = named(example, {"en", "nw", "sw", "es"});
@@ -82,7 +82,7 @@ TEST(Limits, CountsAreKept) {
 
 TEST(Limits, ChosenLabelsFormOnePiece) {
   const LabelGrid example = test::figure36();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {20, 20, 1};
   std::vector<Label> paths;
   for (int b = 1; b < example.labelCount(); ++b) paths.push_back(static_cast<Label>(b));
@@ -128,7 +128,7 @@ TEST(Limits, CountsThatTheSetsExcludeAreProvedImpossible) {
 
 TEST(Limits, WhatCannotBeCountedUpEndsUnfinished) {
   const LabelGrid example = test::figure36();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {6, 6, 1};
   o.budget = 300;
   // Propagation alone knows in which cells an end to the east may be; in all of them at once there
@@ -145,7 +145,7 @@ TEST(Limits, WhatCannotBeCountedUpEndsUnfinished) {
 
 TEST(Metropolis, DrawsLabelsToWhereTheirWeightIs) {
   const LabelGrid example = test::figure36();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {30, 30, 1};
   o.block = {5, 5, 2};
   o.rounds = 20;
@@ -169,7 +169,7 @@ TEST(Metropolis, DrawsLabelsToWhereTheirWeightIs) {
 TEST(Resemblance, CountsThePlacesThatDifferLeast) {
   // Beside 'a' on its left, 'b' occurs twice and 'c' once; nothing else is known.
   const LabelGrid example = test::drawnFlat({"abxabxacx"});
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {3, 1, 1};
   for (SideRule& s : o.sides) s.kind = SideRule::Kind::Free;
   const Adjacency a = findAdjacency(example);
@@ -206,7 +206,7 @@ TEST(Resemblance, MakesResultsMoreLikeTheExample) {
   std::array<int, 2> alike{};
   for (int seed = 0; seed < 3; ++seed) {
     for (int r = 0; r < 2; ++r) {
-      ModelOptions o;
+      ModelOptions o{.moves = 0};
       o.size = {24, 24, 1};
       o.seed = seed;
       o.choice = r ? LabelChoice::Resemblance : LabelChoice::Frequency;

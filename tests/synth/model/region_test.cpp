@@ -35,7 +35,7 @@ class PathsRegion : public testing::Test {
   }
 
   static ModelOptions optionsOf() {
-    ModelOptions o;
+    ModelOptions o{.moves = 0};
     o.size = {20, 20, 1};
     o.choice = LabelChoice::Uniform;
     return o;

@@ -37,7 +37,7 @@ TEST_P(EachExample, GivesOnlyPairsOfTheExample) {
   for (const ModelMethod method : {ModelMethod::Whole, ModelMethod::Blocks}) {
     for (const LabelChoice choice : {LabelChoice::Frequency, LabelChoice::Uniform}) {
       for (int seed = 0; seed < 3; ++seed) {
-        ModelOptions o;
+        ModelOptions o{.moves = 0};
         o.size = {17, 14, height};
         o.seed = seed;
         o.method = method;
@@ -74,7 +74,7 @@ TEST_P(EachExample, IsTheSameAtAnyNumberOfThreads) {
   for (const Way way : {Way{ModelMethod::Whole, LabelChoice::Uniform},
                         Way{ModelMethod::Blocks, LabelChoice::Uniform},
                         Way{ModelMethod::Blocks, LabelChoice::Resemblance}}) {
-    ModelOptions o;
+    ModelOptions o{.moves = 0};
     o.size = {25, 22, height};
     o.seed = 5;
     o.method = way.method;
@@ -113,7 +113,7 @@ int plainSuccesses(const LabelGrid& example, const ModelOptions& o, int seeds) {
 
 TEST(SynthesizeModel, NeverFailsOnFigure35) {
   const LabelGrid example = test::figure35();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {40, 40, 1};
   o.choice = LabelChoice::Uniform;
   EXPECT_LT(plainSuccesses(example, o, 20), 2);
@@ -128,7 +128,7 @@ TEST(SynthesizeModel, NeverFailsOnFigure35) {
 
 TEST(SynthesizeModel, NeverFailsOnPathsThatNeverEnd) {
   const LabelGrid example = test::escheresque();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {40, 40, 10};
   o.choice = LabelChoice::Uniform;
   EXPECT_LT(plainSuccesses(example, o, 10), 2);
@@ -143,7 +143,7 @@ TEST(SynthesizeModel, NeverFailsOnPathsThatNeverEnd) {
 
 TEST(SynthesizeModel, PlainPropagationSucceedsOnTheInfallibleTwin) {
   // Thesis, section 3.3.8: one cell's own label makes figure 3.5 infallible.
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {30, 30, 1};
   o.choice = LabelChoice::Uniform;
   for (SideRule& s : o.sides) s.kind = SideRule::Kind::Free;
@@ -164,7 +164,7 @@ TEST(SynthesizeModel, ProvesWhatFigure35SaysPropagationMisses) {
   const LabelGrid example = test::figure35();
   const Label one = static_cast<Label>(labelNamed(example, "1"));
   const Label two = static_cast<Label>(labelNamed(example, "2"));
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {12, 12, 1};
   o.pins = {{{9, 9, 0}, {0}}, {{4, 3, 0}, {two}}};
   const Adjacency a = findAdjacency(example);
@@ -194,7 +194,7 @@ TEST(SynthesizeModel, TurnsToBlocksWhereTheWholeComesToNothing) {
   const LabelGrid example = test::escheresque();
   int inBlocks = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    ModelOptions o;
+    ModelOptions o{.moves = 0};
     o.size = {30, 30, 10};
     o.seed = seed;
     o.choice = LabelChoice::Uniform;
@@ -265,7 +265,7 @@ TEST(SynthesizeModel, BlocksBeginWithTheWholeWhereNoTileRepeats) {
   // Pins six cells apart are one cell of a tile of one, two or three cells, and want different
   // labels.
   const LabelGrid example = test::canyon();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {20, 20, 10};
   o.method = ModelMethod::Blocks;
   const ModelResult free = synthesizeModel(example, o);
@@ -293,7 +293,7 @@ TEST(SynthesizeModel, HearsOfDemandsFarAway) {
   example.cells = Array3D<Label>({4, 1, 1}, 0);
   example.cells(1, 0, 0) = example.cells(3, 0, 0) = 1;
   example.labels.resize(2);
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {30000, 1, 1};
   for (SideRule& side : o.sides) side.kind = SideRule::Kind::Free;
   o.pins = {{{2, 0, 0}, {1}}, {{29998, 0, 0}, {1}}};
@@ -314,7 +314,7 @@ TEST(SynthesizeModel, ProvesThatThreeEndsDoNotPair) {
   for (const char* name : {"e", "n", "w", "s"}) {
     ends.push_back(static_cast<Label>(labelNamed(example, name)));
   }
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {7, 7, 1};
   WeightMap elsewhere{ends, Array3D<float>(o.size, 0.f)};
   for (const Vec3i p : {Vec3i{1, 1, 0}, Vec3i{5, 2, 0}, Vec3i{2, 4, 0}}) {
@@ -342,7 +342,7 @@ TEST(SynthesizeModel, ProvesThatThreeEndsDoNotPair) {
 
 TEST(SynthesizeModel, HonorsPinsMasksAndWeights) {
   const LabelGrid example = test::figure36();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {20, 20, 1};
   o.choice = LabelChoice::Uniform;
   o.pins = {{{5, 5, 0}, {static_cast<Label>(labelNamed(example, "ew"))}},
@@ -367,7 +367,7 @@ TEST(SynthesizeModel, HonorsPinsMasksAndWeights) {
 
 TEST(SynthesizeModel, PutsLabelsWhereAWeightMapWantsThem) {
   const LabelGrid example = test::figure36();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {30, 30, 1};
   WeightMap empty{{0}, Array3D<float>(o.size, 1.f)};
   for (int i = 0; i < 30; ++i) {
@@ -388,7 +388,7 @@ TEST(SynthesizeModel, PutsLabelsWhereAWeightMapWantsThem) {
 
 TEST(SynthesizeModel, RepeatsAlongPeriodicAxes) {
   const LabelGrid example = test::figure36();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {13, 11, 1};
   o.periodic = {true, true, false};
   o.choice = LabelChoice::Uniform;
@@ -412,7 +412,7 @@ TEST(SynthesizeModel, JoinsFarEnds) {
   for (const char* name : {"e", "n", "w", "s"}) {
     ends.push_back(static_cast<Label>(labelNamed(example, name)));
   }
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {24, 24, 1};
   o.choice = LabelChoice::Uniform;
   WeightMap elsewhere{ends, Array3D<float>(o.size, 0.f)};
@@ -452,7 +452,7 @@ TEST(SynthesizeModel, IsSymmetricWhereAsked) {
   const auto turned = mapped(example, "enws", "nwse");
   for (const int n : {12, 13}) {
     for (int kind = 0; kind < 5; ++kind) {
-      ModelOptions o;
+      ModelOptions o{.moves = 0};
       o.size = {n, n, 1};
       o.choice = LabelChoice::Uniform;
       o.symmetry.mirroredX = mirroredX;
@@ -522,7 +522,7 @@ TEST(SynthesizeModel, MakesModelsThatChangeOverTime) {
   AdjacencyOptions frames;
   frames.frames = true;
   const Adjacency a = findAdjacency(example, frames);
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {40, 1, 1};
   o.frames = 30;
   o.choice = LabelChoice::Uniform;
@@ -561,7 +561,7 @@ TEST(SynthesizeModel, KeepsRulesAtFurtherOffsets) {
   hexagonal.offsets = {{1, -1, 0, 0}, {2, 0, 0, 0}};
   const Adjacency a = findAdjacency(example, hexagonal);
   ASSERT_EQ(a.rules.size(), 5u);
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {15, 12, 1};
   ViolationOptions v;
   v.adjacency = hexagonal;
@@ -577,7 +577,7 @@ TEST(SynthesizeModel, KeepsRulesAtFurtherOffsets) {
 
 TEST(SynthesizeModel, OriginsHaveTheLabelAndFollowTheExample) {
   const LabelGrid example = test::parliament();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {30, 30, 10};
   const ModelResult r = synthesizeModel(example, o);
   ASSERT_EQ(r.outcome, Outcome::Complete);
@@ -599,7 +599,7 @@ TEST(SynthesizeModel, OriginsHaveTheLabelAndFollowTheExample) {
 TEST(SynthesizeModel, TurnsDownWhatCannotBeHonored) {
   const LabelGrid example = test::figure36();
   const auto message = [&](const auto& change) -> std::string {
-    ModelOptions o;
+    ModelOptions o{.moves = 0};
     o.size = {8, 8, 1};
     change(o);
     try {
@@ -670,7 +670,7 @@ TEST(SynthesizeModel, TurnsDownWhatCannotBeHonored) {
 
 TEST(SynthesizeModel, SaysWhyAnExampleThatNeverRepeatsGivesNothing) {
   const LabelGrid example = test::drawnFlat({"abc", "def", "ghi"});
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {5, 5, 1};
   for (SideRule& s : o.sides) s.kind = SideRule::Kind::Free;
   const ModelResult r = synthesizeModel(example, o);
@@ -688,7 +688,7 @@ TEST(SynthesizeModel, SaysWhyAnExampleThatNeverRepeatsGivesNothing) {
 
 TEST(SynthesizeModel, HearsCancellationWhereverItIs) {
   const LabelGrid example = test::figure36();
-  ModelOptions o;
+  ModelOptions o{.moves = 0};
   o.size = {40, 40, 1};
   o.choice = LabelChoice::Uniform;
   std::vector<Label> ends;

@@ -1,0 +1,43 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "synth/model/choose.h"
+#include "synth/model/problem.h"
+
+namespace exemplar {
+
+/// Makes a labeling hold what the example holds: Metropolis sampling with patches of the example as
+/// moves (Metropolis et al., J. Chem. Phys. 21, 1953), cooled down (Kirkpatrick, Gelatt, Vecchi:
+/// "Optimization by simulated annealing", Science 220, 1983).
+///
+/// Rules of pairs leave open how often an object occurs, how large it is, and whether a street
+/// leads anywhere. The energy counts that: over all blocks of 1, 2 and 3 cells a side, how many
+/// more or fewer there are than in the example times the ratio of areas (`BlockCounts`), and a
+/// price for each window of 8 x 8 columns that is verbatim in the example (`CopiedWindows`).
+///
+/// A move takes a core of 1 to 14 by 1 to 8 columns, at times of part of the height, near a block
+/// that is unknown or too frequent; of some places in the example the one that agrees best with
+/// what is around (`PatchAlignments`); and puts that in so that every pair stays one of the
+/// example's, by implication and by a search in a narrow rim (`PatchMove`), within the labels that
+/// the request leaves each cell: pins, holes, sides, periodic axes, symmetry, frames and further
+/// offsets need nothing of their own. It is kept with the chance min(1, exp(-change /
+/// temperature)). Cores are long at first, for short ones alone would not begin anything large, and
+/// shorter at the end; the temperature falls evenly from 20 blocks to 0. Under weights of labels
+/// other counts are wanted; where a map makes a label more probable, that counts like blocks.
+///
+/// `labels` must be consistent, and is after every move; `base` holds the labels that the request
+/// leaves each cell, arc consistent. `ModelOptions::moves` moves are made for each column, those
+/// that are far apart at the same time; each is weighed with exact counts, in a fixed order, so the
+/// bytes are the same at any number of threads. O(moves); 12 bytes a cell, and a region for each
+/// thread. Throws `Cancelled`.
+void annealPatches(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+                   std::span<const LabelGrid> examples, std::vector<Label>& labels,
+                   ModelStatistics& statistics, const Progress& progress = {});
+
+}  // namespace exemplar
