@@ -173,6 +173,7 @@ class LayeredEngine final : public Engine {
   std::span<const std::string_view> honors() const override { return {}; }
 
  protected:
+  void checkFurther(const Request& request, std::size_t) const override { settingsFrom(request); }
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {
     const Example& example = examples.front();

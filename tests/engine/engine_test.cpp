@@ -27,7 +27,25 @@ Result runOn(const Engine& engine, const Example& example, const Request& reques
   return engine.run({&example, 1}, request);
 }
 
+/// A picture of bright discs on dark ground.
+Example discs() {
+  MapLayer picture{"color", {Grid<float>(40, 36)}, 8};
+  Grid<float>& plane = picture.planes.front();
+  for (int y = 0; y < 36; ++y)
+    for (int x = 0; x < 40; ++x)
+      plane(x, y) = (x % 13 - 6) * (x % 13 - 6) + (y % 12 - 6) * (y % 12 - 6) < 17 ? 0.9f : 0.1f;
+  Example example;
+  example.source = "discs.png";
+  example.reading.form = Form::Map;
+  example.kind = SourceKind::Picture;
+  Map map;
+  map.layers.push_back(std::move(picture));
+  example.data = std::move(map);
+  return example;
+}
+
 Example exampleFor(const Engine& engine) {
+  if (engine.form() == Form::Map) return discs();
   if (engine.form() == Form::Polygons)
     return readExample(Source::of(boxes()), {.form = Form::Polygons});
   return readExample(engine.form() == Form::Field ? Source::of(bumps()) : Source::of(rings()));
@@ -38,9 +56,11 @@ Request smallRequest(const Engine& engine, std::uint64_t seed = 0) {
   Request request;
   request.extent.size = engine.form() == Form::Field    ? Vec3i{36, 30, 12}
                         : engine.form() == Form::Labels ? Vec3i{14, 12, 1}
+                        : engine.form() == Form::Map    ? Vec3i{48, 40, 1}
                                                         : Vec3i{20, 10, 4};
   request.seed = seed;
   if (engine.name() == "blocks") request.settings = {{"block", "8"}};
+  if (engine.form() == Form::Map) request.settings = {{"layers", "2"}, {"neighborhood", "5"}};
   return request;
 }
 
@@ -54,8 +74,8 @@ TEST(Engines, AreFoundByNameAndByWhatTheExampleIs) {
   EXPECT_EQ(engineFor(Source::of(boxes())).name(), "geometry");
   EXPECT_EQ(engineFor("castle.png").name(), "geometry");
   EXPECT_THAT([] { engineNamed("best"); },
-              ThrowsMessage<InputError>(
-                  HasSubstr("expected geometry, quilting, voting, blocks, model or continuous")));
+              ThrowsMessage<InputError>(HasSubstr(
+                  "expected geometry, quilting, voting, blocks, model, continuous or layered")));
 }
 
 TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
@@ -70,6 +90,13 @@ TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
     if (engine->form() == Form::Polygons) {
       EXPECT_EQ(result.polygons().size, *request.extent.size);
       EXPECT_FALSE(result.polygons().polygons.empty());
+    } else if (engine->form() == Form::Map) {
+      EXPECT_EQ(result.map().width(), 48);
+      EXPECT_EQ(result.map().height(), 40);
+      EXPECT_NEAR(areaOf(layerShape(*result.layers, 2)),
+                  areaOf(layerShape(*result.exampleLayers, 2)), 1e-3);
+      EXPECT_THROW(realize(result, {&example, 1}), InputError);
+      continue;
     } else {
       ASSERT_EQ(result.origins.size(), *request.extent.size);
     }
@@ -101,6 +128,9 @@ TEST(Engines, GiveTheSameBytesAtOneAndEightThreads) {
     } else if (engine->form() == Form::Polygons) {
       EXPECT_EQ(one.polygons().points, eight.polygons().points);
       EXPECT_EQ(one.polygons().polygons.size(), eight.polygons().polygons.size());
+    } else if (engine->form() == Form::Map) {
+      EXPECT_EQ(one.map().layers[0].planes, eight.map().layers[0].planes);
+      EXPECT_EQ(*one.layers, *eight.layers);
     } else {
       EXPECT_EQ(one.labels().cells, eight.labels().cells);
     }

@@ -244,7 +244,7 @@ TEST(SynthesizeModel, CountsWhatRepairsTakeAndEndsAlikeEverywhere) {
   const LabelGrid example = test::escheresque();
   int inBlocks = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    ModelOptions o;
+    ModelOptions o{.moves = 0};
     o.size = {40, 40, 10};
     o.seed = seed;
     o.patience = 1;
