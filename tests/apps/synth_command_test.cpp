@@ -145,7 +145,7 @@ TEST(SynthCommand, AnOptionOfAnotherEngineIsRefusedWithTheEnginesThatHaveIt) {
   for (const auto& [arguments, says] : std::vector<std::pair<std::string, std::string>>{
            {scene("chainmail") + " --block 8",
             "--block: the engine geometry has no such setting; "
-            "blocks and model have"},
+            "blocks, model and continuous have"},
            {scene("chainmail") + " --seeding masked", "blocks has"},
            {scene("chainmail") + " --engine blocks --periodic x",
             "geometry, quilting, voting and model have"},
