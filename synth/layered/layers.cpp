@@ -11,6 +11,7 @@
 
 #include "core/random_streams.h"
 #include "maps/distance_transform.h"
+#include "maps/halved.h"
 
 namespace exemplar {
 namespace {
@@ -54,20 +55,6 @@ Grid<float> blurred(const Grid<float>& values) {
   return mean;
 }
 
-/// The mean of 2 x 2 pixels; a last odd row or column is left out.
-Grid<float> halved(const Grid<float>& values) {
-  Grid<float> half(std::max(1, values.width() / 2), std::max(1, values.height() / 2));
-  for (int y = 0; y < half.height(); ++y) {
-    for (int x = 0; x < half.width(); ++x) {
-      const int x1 = std::min(2 * x + 1, values.width() - 1);
-      const int y1 = std::min(2 * y + 1, values.height() - 1);
-      half(x, y) =
-          (values(2 * x, 2 * y) + values(x1, 2 * y) + values(2 * x, y1) + values(x1, y1)) / 4;
-    }
-  }
-  return half;
-}
-
 /// A shape at half the resolution, and so on, with its share of the pixels at each.
 ShapePyramid pyramidOf(const Shape& shape, int levels, const Random& random) {
   ShapePyramid pyramid{shape};
@@ -75,7 +62,7 @@ ShapePyramid pyramidOf(const Shape& shape, int levels, const Random& random) {
   Grid<float> coverage(shape.width(), shape.height());
   for (std::size_t p = 0; p < shape.count(); ++p) coverage[p] = shape[p];
   for (int l = 1; l < levels; ++l) {
-    coverage = halved(coverage);
+    coverage = halved(coverage, false);
     pyramid.push_back(largest(coverage, blurred(coverage), pixelsOf(share, coverage.count()),
                               random.fork(static_cast<std::uint64_t>(l))));
   }

@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/random_streams.h"
+#include "maps/halved.h"
 
 namespace exemplar {
 namespace {
@@ -38,19 +39,6 @@ struct Features {
 int wrappedIndex(int x, int n) {
   x %= n;
   return x < 0 ? x + n : x;
-}
-
-Grid<float> halved(const Grid<float>& values) {
-  Grid<float> half((values.width() + 1) / 2, (values.height() + 1) / 2);
-  for (int y = 0; y < half.height(); ++y) {
-    for (int x = 0; x < half.width(); ++x) {
-      const int x1 = std::min(2 * x + 1, values.width() - 1);
-      const int y1 = std::min(2 * y + 1, values.height() - 1);
-      half(x, y) =
-          (values(2 * x, 2 * y) + values(x1, 2 * y) + values(2 * x, y1) + values(x1, y1)) / 4;
-    }
-  }
-  return half;
 }
 
 /// One resolution of the work: the example's pixels and the result's, guide first.
@@ -395,8 +383,8 @@ GuidedTexture synthesizeTexture(const Map& example, const Grid<float>& exampleGu
   std::vector<Resolution> pyramid{{exampleGuide, guide, planes}};
   for (int l = 1; l < levels; ++l) {
     const Resolution& finer = pyramid.back();
-    Resolution coarser{halved(finer.exampleGuide), halved(finer.guide), {}};
-    for (const Grid<float>& plane : finer.planes) coarser.planes.push_back(halved(plane));
+    Resolution coarser{halved(finer.exampleGuide, true), halved(finer.guide, true), {}};
+    for (const Grid<float>& plane : finer.planes) coarser.planes.push_back(halved(plane, true));
     pyramid.push_back(std::move(coarser));
   }
   const Random random(options.seed, stream::kTextureStart);
