@@ -76,9 +76,15 @@ void checkOutputs(const Options& options, Form form, int lods) {
   if (!options.layers.empty()) requireOutput(options.layers, ".png");
   Paths inputs(options.examples.begin(), options.examples.end());
   inputs.insert(inputs.end(), options.with.begin(), options.with.end());
-  for (const char* key : {"keep", "guide", "mask"})
+  for (const char* key : {"keep", "guide", "mask", "layers-from", "paint"})
     if (options.settings.has(key)) inputs.emplace_back(options.settings.text(key));
   Paths files = filesOf(options.outputs, lods);
+  if (form == Form::Map) {
+    for (const auto& [name, file] : readingOf(options.settings, form).channels) {
+      inputs.emplace_back(file);
+      for (const std::string& output : options.outputs) files.push_back(channelPath(output, name));
+    }
+  }
   for (const std::string* file :
        {&options.preview, &options.stats, &options.origins, &options.report, &options.layers})
     if (!file->empty()) files.emplace_back(*file);
@@ -229,8 +235,8 @@ void writeStats(const Options& options, const Result& result, const std::optiona
   stats.update(toJson(result.statistics));
   if (surface) stats["mesh"] = toJson(surface->health);
   if (result.layers) {
-    stats.update(toJson(
-        figures(measureLayers(*result.exampleLayers, false, *result.layers))));
+    stats.update(toJson(figures(measureLayers(*result.exampleLayers, false, *result.layers,
+                                              terminal.progress().part(0.95, 1)))));
   }
   stats["warnings"] = terminal.warnings();
   const double total = times.total.seconds();

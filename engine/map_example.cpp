@@ -3,6 +3,8 @@
 
 // Examples as maps.
 
+#include <algorithm>
+#include <cctype>
 #include <set>
 
 #include "core/error.h"
@@ -37,6 +39,9 @@ void readAsMap(Example& example, const Progress& progress) {
   std::set<std::string> names{"color"};
   for (const auto& [name, file] : example.reading.channels) {
     progress.check();
+    const auto isPlain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+    if (!std::ranges::all_of(name, isPlain))
+      throw InputError("`channel` " + name + ": a name is of letters, digits, _ and -");
     if (!names.insert(name).second)
       throw InputError("`channel` " + name + ": given twice, or the name of the first picture");
     map.layers.push_back(readLayer(Source(file), name, example.warnings));

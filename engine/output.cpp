@@ -32,11 +32,6 @@ fs::path framePath(const fs::path& path, std::size_t frame) {
   return path.parent_path() / (path.stem().string() + number + path.extension().string());
 }
 
-/// The path of a further channel of a map: `rust.png` becomes `rust_normal.png`.
-fs::path channelPath(const fs::path& path, const std::string& channel) {
-  return path.parent_path() / (path.stem().string() + "_" + channel + path.extension().string());
-}
-
 /// A flat grid as its picture, with cells of several pixels; any other one rendered.
 Image8 frameImage(const LabelGrid& grid, const Example& example, const RenderOptions& picture,
                   const Progress& progress) {
@@ -155,6 +150,10 @@ void requireOutput(const fs::path& path, const std::string& endings) {
   const OutputFile probe(path);
 }
 
+fs::path channelPath(const fs::path& path, const std::string& channel) {
+  return path.parent_path() / (path.stem().string() + "_" + channel + path.extension().string());
+}
+
 fs::path lodPath(const fs::path& path, int n) {
   return path.parent_path() /
          (path.stem().string() + "_lod" + std::to_string(n) + path.extension().string());
@@ -231,8 +230,8 @@ std::vector<Written> writeLods(const fs::path& path, const Surface& surface,
   const auto count = static_cast<double>(surface.lods.size());
   for (const CoarserSurface& lod : surface.lods) {
     const auto n = static_cast<double>(written.size());
-    written.push_back(writeTriangles(lodPath(path, static_cast<int>(n) + 1), lod.mesh, {}, lod.health,
-                                     "coarser", options.mesh,
+    written.push_back(writeTriangles(lodPath(path, static_cast<int>(n) + 1), lod.mesh, {},
+                                     lod.health, "coarser", options.mesh,
                                      progress.part(n / count, (n + 1) / count)));
   }
   return written;

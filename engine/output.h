@@ -32,6 +32,8 @@ inline constexpr const char* kLabelOutputEndings =
 /// Refuses an output whose ending is none of `endings` (".obj .ply"), or whose folder does not
 /// exist or cannot be written, before any work is done.
 void requireOutput(const std::filesystem::path& path, const std::string& endings);
+/// Where a further channel of a map goes beside its first picture: `rust_normal.png`.
+std::filesystem::path channelPath(const std::filesystem::path& path, const std::string& channel);
 /// Where the nth coarser copy of a mesh goes, from 1: `wall.glb` becomes `wall_lod1.glb`.
 std::filesystem::path lodPath(const std::filesystem::path& path, int n);
 /// All files with names of their own that writing to the paths gives: with `lods` coarser copies of

@@ -158,9 +158,8 @@ Surface realize(const Result& result, std::span<const Example> examples,
     surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));
     surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
   } else {
-    surface = options.surface == SurfaceKind::Copy
-                  ? copied(result, examples, progress)
-                  : contoured(result, examples, options, progress);
+    surface = options.surface == SurfaceKind::Copy ? copied(result, examples, progress)
+                                                   : contoured(result, examples, options, progress);
     turn(surface.mesh, examples.front().turn);
     for (CoarserSurface& lod : surface.lods) turn(lod.mesh, examples.front().turn);
   }

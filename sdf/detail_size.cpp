@@ -10,13 +10,13 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <new>
 #include <utility>
 #include <vector>
 
 #include "core/parallel.h"
 #include "core/random.h"
 #include "sdf/solid_test.h"
+#include "sdf/soup_scene.h"
 #include "sdf/triangle_soup.h"
 #include "sdf/triangle_tree.h"
 
@@ -32,47 +32,6 @@ constexpr double kSide = 64, kStep = 1e-3;
 // Faces buried in the solid that a ray goes through before it is given up.
 constexpr int kBuried = 16;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Device {
-  RTCDevice device = rtcNewDevice(nullptr);
-  RTCScene scene = nullptr;
-
-  explicit Device(const TriangleSoup& soup) {
-    if (!device) throw std::bad_alloc();
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                               soup.points.size()));
-    auto* indices = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), soup.triangles.size()));
-    if (points && indices) {
-      for (std::size_t p = 0; p < soup.points.size(); ++p)
-        for (int axis = 0; axis < 3; ++axis)
-          points[3 * p + axis] = static_cast<float>(soup.points[p][axis]);
-      for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-        for (int c = 0; c < 3; ++c) indices[3 * t + c] = soup.triangles[t][c];
-      rtcCommitGeometry(geometry);
-      rtcAttachGeometry(scene, geometry);
-      rtcCommitScene(scene);
-    }
-    rtcReleaseGeometry(geometry);
-    if (!points || !indices) {
-      release();
-      throw std::bad_alloc();
-    }
-  }
-  ~Device() { release(); }
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-
-  void release() {
-    if (scene) rtcReleaseScene(std::exchange(scene, nullptr));
-    if (device) rtcReleaseDevice(std::exchange(device, nullptr));
-  }
-};
 
 struct SurfacePoint {
   Vec3d place, normal;
@@ -199,7 +158,7 @@ DetailSize detailSize(const TriangleMesh& mesh, const Progress& progress) {
       soup.closed ? TriangleTree::For::Distances : TriangleTree::For::Everything);
   if (tree->count() == 0) return {kInfinity, kInfinity};
   const SolidTest solid(soup, tree, progress);
-  const Device device(soup);
+  const SoupScene scene(soup, RTC_SCENE_FLAG_ROBUST);
   progress.report("looking at detail", 0.5);
 
   const std::vector<SurfacePoint> points = spread(soup, *tree);
@@ -214,7 +173,7 @@ DetailSize detailSize(const TriangleMesh& mesh, const Progress& progress) {
     rays.push_back({points[p].place, -out, true});
     rays.push_back({points[p].place, out, false});
   }
-  follow(solid, device.scene, rays, progress);
+  follow(solid, scene.get(), rays, progress);
   std::vector<double> through, across;
   for (const Ray& ray : rays)
     if (ray.opposite) (ray.inwards ? through : across).push_back(ray.length * scale);

@@ -9,8 +9,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <new>
 #include <numbers>
+
+#include "sdf/soup_scene.h"
 
 namespace exemplar {
 namespace {
@@ -44,44 +45,16 @@ void count(const RTCFilterFunctionNArguments* arguments) {
 }  // namespace
 
 struct ParityTest::Scene {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  std::array<Vec3f, kRays> directions = makeDirections();
+  // Robust: no ray slips between two triangles at their edge.
+  explicit Scene(const TriangleSoup& soup)
+      : triangles(soup, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                   RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION)) {}
 
-  ~Scene() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
+  SoupScene triangles;
+  std::array<Vec3f, kRays> directions = makeDirections();
 };
 
-ParityTest::ParityTest(const TriangleSoup& soup) : scene_(std::make_unique<Scene>()) {
-  Scene& s = *scene_;
-  s.device = rtcNewDevice(nullptr);
-  if (!s.device) throw std::bad_alloc();
-  s.scene = rtcNewScene(s.device);
-  // Robust: no ray slips between two triangles at their edge.
-  rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-  RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                             RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                             soup.points.size()));
-  auto* indices = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), soup.triangles.size()));
-  if ((!points && !soup.points.empty()) || (!indices && !soup.triangles.empty())) {
-    rtcReleaseGeometry(geometry);
-    throw std::bad_alloc();
-  }
-  for (std::size_t p = 0; p < soup.points.size(); ++p)
-    for (int axis = 0; axis < 3; ++axis)
-      points[3 * p + axis] = static_cast<float>(soup.points[p][axis]);
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    for (int c = 0; c < 3; ++c) indices[3 * t + c] = soup.triangles[t][c];
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(s.scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(s.scene);
-}
+ParityTest::ParityTest(const TriangleSoup& soup) : scene_(std::make_unique<Scene>(soup)) {}
 
 ParityTest::~ParityTest() = default;
 
@@ -101,7 +74,7 @@ bool ParityTest::inside(const Vec3d& p) const {
     ray.dir_z = direction.z;
     ray.tfar = std::numeric_limits<float>::infinity();
     ray.mask = 0xffffffff;
-    rtcOccluded1(scene_->scene, &counting.context, &ray);
+    rtcOccluded1(scene_->triangles.get(), &counting.context, &ray);
     votes += static_cast<int>(counting.hits & 1);
   }
   return 2 * votes > kRays;

@@ -60,8 +60,7 @@ TEST(BoundaryPatches, DifferByAsManyPixelsAsAreCounted) {
 TEST(BoundaryPatches, TurnFourTimesToWhatTheyWere) {
   for (int turn = 0; turn < 8; ++turn) {
     Pixel step{3, -2};
-    const int times = turn >= 4 && turn % 2 == 1 ? 2 : turn >= 4 ? 4 : 4;
-    for (int t = 0; t < times; ++t) step = turnedStep(step, turn);
+    for (int t = 0; t < 4; ++t) step = turnedStep(step, turn);
     EXPECT_EQ(step, (Pixel{3, -2})) << turn;
   }
   // Eight different places.
@@ -239,10 +238,9 @@ TEST(SynthesizeLayers, KeepsAreasNestingAndLikeness) {
     EXPECT_LE(skippingShare(made.map), skippingShare(example));
     const LayersLikeness likeness = measureLayers(example, false, made.map);
     for (const LayerLikeness& layer : likeness.layers) {
-      const double most = layer.layer == 2 ? 0.03 : 0.05;
-      EXPECT_LT(*layer.toExample, most) << layer.layer;
-      EXPECT_LT(*layer.toResult, most) << layer.layer;
-      EXPECT_NEAR(*layer.boundaryRatio, 1, 0.15) << layer.layer;
+      const double distance = (*layer.toExample + *layer.toResult) / 2;
+      EXPECT_LE(distance, layer.layer == 2 ? 0.02 : 0.04) << layer.layer;
+      EXPECT_NEAR(*layer.boundaryRatio, 1, 0.1) << layer.layer;
     }
   }
 }
