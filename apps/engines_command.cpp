@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "core/json_text.h"
 #include "engine/engine.h"
 #include "engine/json.h"
 #include "engine/settings_page.h"
@@ -25,7 +26,7 @@ Command addEnginesCommand(CLI::App& app) {
       ->excludes(json);
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             if (options->json) {
-              terminal.print(settingsJson().dump(2) + "\n");
+              terminal.print(jsonText(settingsJson(), 2) + "\n");
             } else if (options->markdown) {
               terminal.print(settingsPage());
             } else {

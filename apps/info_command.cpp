@@ -10,6 +10,7 @@
 
 #include "apps/command.h"
 #include "core/file.h"
+#include "core/json_text.h"
 #include "engine/json.h"
 #include "engine/model_request.h"
 #include "engine/output.h"
@@ -156,8 +157,7 @@ void info(const Options& options, Terminal& terminal) {
   const bool plainMesh =
       sourceKind(options.example) == SourceKind::Mesh && !options.settings.has("cell");
   const Json json = plainMesh ? meshInfo(options, terminal) : labelInfo(options, terminal);
-  // Names may hold bytes that are not UTF-8.
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = jsonText(json, 2) + "\n";
   if (print) {
     std::fputs(text.c_str(), stdout);
   } else if (!options.json.empty()) {

@@ -11,6 +11,7 @@
 #include "apps/command.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_text.h"
 #include "engine/json.h"
 #include "engine/measured.h"
 #include "engine/output.h"
@@ -46,12 +47,12 @@ void writeReport(const Options& options, const Example& example, const Measured&
 void writeFigures(const Options& options, const std::vector<Figure>& all, Terminal& terminal) {
   terminal.wipe();
   if (options.json == "-") {
-    std::printf("%s\n", toJson(all).dump(2).c_str());
+    std::printf("%s\n", jsonText(toJson(all), 2).c_str());
     return;
   }
   if (!terminal.quiet()) terminal.print(figuresTable(all));
   if (options.json.empty()) return;
-  writeFile(options.json, toJson(all).dump(2) + "\n");
+  writeFile(options.json, jsonText(toJson(all), 2) + "\n");
   terminal.noteFile(options.json, "figures");
 }
 

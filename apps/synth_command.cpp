@@ -13,6 +13,7 @@
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_text.h"
 #include "core/memory.h"
 #include "engine/engine.h"
 #include "engine/json.h"
@@ -245,7 +246,7 @@ void writeStats(const Options& options, const Result& result, const std::optiona
                       {"surface_and_picture", total - times.read - times.synthesis},
                       {"total", total}};
   stats["peak_rss_bytes"] = peakResidentBytes();
-  writeFile(options.stats, stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFile(options.stats, jsonText(stats, 2) + "\n");
 }
 
 /// The result first; what goes with it must not cost it.

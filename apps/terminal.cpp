@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "core/json_text.h"
 #include "engine/words.h"
 
 namespace exemplar {
@@ -33,11 +34,6 @@ void onInterrupt(int) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-/// Names may hold bytes that are not UTF-8.
-std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace
 
 Terminal::Terminal(ProgressStyle style, bool quiet)
@@ -50,7 +46,7 @@ Terminal::Terminal(ProgressStyle style, bool quiet)
   interruptedFlag.store(false);
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
-  event(dumped({{"event", "start"}, {"version", EXEMPLAR_VERSION}, {"protocol", kProtocol}}));
+  event(jsonText(Json{{"event", "start"}, {"version", EXEMPLAR_VERSION}, {"protocol", kProtocol}}));
 }
 
 Terminal::~Terminal() {
@@ -81,7 +77,7 @@ void Terminal::show(std::string_view stage, double fraction) {
   if (style_ == ProgressStyle::Json) {
     Json json{{"event", "progress"}, {"stage", state.stage}, {"fraction", state.fraction}};
     if (state.secondsLeft) json["seconds_left"] = *state.secondsLeft;
-    event(dumped(json));
+    event(jsonText(json));
     return;
   }
   char percent[16];
@@ -119,7 +115,7 @@ void Terminal::warn(const std::string& text) {
   wipe();
   warnings_.push_back(spelledAsOptions(text));
   if (style_ == ProgressStyle::Json) {
-    event(dumped({{"event", "warning"}, {"text", warnings_.back()}}));
+    event(jsonText(Json{{"event", "warning"}, {"text", warnings_.back()}}));
   } else {
     std::fprintf(stderr, "warning: %s\n", warnings_.back().c_str());
   }
@@ -133,16 +129,16 @@ void Terminal::wrote(std::string_view label, const std::filesystem::path& path,
 
 void Terminal::noteFile(const std::filesystem::path& path, std::string_view kind) {
   written_.push_back(path.string());
-  event(dumped({{"event", "file"}, {"kind", std::string(kind)}, {"path", path.string()}}));
+  event(jsonText(Json{{"event", "file"}, {"kind", std::string(kind)}, {"path", path.string()}}));
 }
 
-void Terminal::done() { event(dumped({{"event", "done"}})); }
+void Terminal::done() { event(jsonText(Json{{"event", "done"}})); }
 
 void Terminal::fail(const std::string& text, int status) {
   wipe();
   const std::string line = spelledAsOptions(text.substr(0, text.find('\n')));
   if (style_ == ProgressStyle::Json) {
-    event(dumped({{"event", "error"}, {"status", status}, {"text", line}}));
+    event(jsonText(Json{{"event", "error"}, {"status", status}, {"text", line}}));
   } else {
     std::fprintf(stderr, "exemplar: %s\n", line.c_str());
   }

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_text.h"
 #include "core/memory.h"
 #include "engine/engines.h"
 #include "engine/json.h"
@@ -247,19 +248,22 @@ Json requestJson(const Example& example, const ComparisonOptions& options, std::
 /// A run that was finished before, if it was made by the same request and its files are there.
 std::optional<Json> finishedRun(const fs::path& file, const Json& request, const fs::path& folder) {
   if (!fs::exists(file)) return std::nullopt;
-  const Json run = Json::parse(readFile(file), nullptr, false);
-  if (run.is_discarded() || !run.is_object() || run.value("request", Json()) != request)
-    return std::nullopt;
-  const bool complete = run.value("status", "") == "complete";
-  for (const char* key : {"engine", "seed", "status"})
-    if (!run.contains(key)) return std::nullopt;
-  for (const char* key : {"seconds", "figures", "mesh", "picture", "field"})
-    if (complete && !run.contains(key)) return std::nullopt;
-  if (!complete && !run.contains("why")) return std::nullopt;
-  for (const char* part : {"mesh", "picture", "field", "origins", "view"})
-    if (run.contains(part) && !fs::exists(folder / run.at(part).get<std::string>()))
-      return std::nullopt;
-  return run;
+  try {
+    Json run = Json::parse(readFile(file));
+    if (run.at("request") != request) return std::nullopt;
+    const bool complete = run.at("status") == "complete";
+    for (const char* key : {"engine", "seed"}) run.at(key);
+    for (const char* key : {"seconds", "figures", "mesh", "picture", "field"})
+      if (complete) run.at(key);
+    if (!complete) run.at("why");
+    for (const char* part : {"mesh", "picture", "field", "origins", "view"}) {
+      if (run.contains(part) && !fs::exists(folder / run.at(part).get<std::string>()))
+        return std::nullopt;
+    }
+    return run;
+  } catch (const Json::exception&) {
+    return std::nullopt;  // damaged, or of an older version
+  }
 }
 
 /// Makes, measures, draws and writes one run.
@@ -473,7 +477,7 @@ void compare(const Example& example, const ComparisonOptions& options,
       if (!again) {
         run = makeRun(example, options, compared, scale, seed, part);
         (*run)["request"] = request;
-        writeFile(file, run->dump(2) + "\n");
+        writeFile(file, jsonText(*run, 2) + "\n");
         wrote(file);
       }
       if (finished) finished(readable(*run, again));
@@ -482,7 +486,7 @@ void compare(const Example& example, const ComparisonOptions& options,
     }
   }
   progress.report("writing the report", 0.96);
-  writeFile(folder / "compare.json", comparison.dump(2) + "\n");
+  writeFile(folder / "compare.json", jsonText(comparison, 2) + "\n");
   writeFile(folder / "report.html", comparisonPage(comparison, folder, view, picture));
 }
 

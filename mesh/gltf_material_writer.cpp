@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/json_text.h"
 #include "mesh/gltf_json.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/mtl.h"
@@ -168,7 +169,7 @@ void GltfMaterialWriter::addMtlMaps(const Material& material, Json& json) {
 }
 
 std::size_t GltfMaterialWriter::textureOf(Json texture) {
-  const auto [found, added] = textureNumbers_.try_emplace(texture.dump(), textures_.size());
+  const auto [found, added] = textureNumbers_.try_emplace(jsonText(texture), textures_.size());
   if (!added) return found->second;
   const auto inDocument = [&](Json& object) {
     if (object.contains("source"))
@@ -180,7 +181,7 @@ std::size_t GltfMaterialWriter::textureOf(Json texture) {
       if (item.value().is_object()) inDocument(item.value());
   if (texture.contains("sampler")) {
     Json& sampler = texture["sampler"];
-    const auto [number, isNew] = samplerNumbers_.try_emplace(sampler.dump(), samplers_.size());
+    const auto [number, isNew] = samplerNumbers_.try_emplace(jsonText(sampler), samplers_.size());
     if (isNew) samplers_.push_back(sampler);
     sampler = number->second;
   }

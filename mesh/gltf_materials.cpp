@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/text_scanner.h"
 #include "mesh/gltf_json.h"
 #include "mesh/gltf_material_writer.h"
@@ -214,8 +215,8 @@ void GltfMaterials::keepSource(std::uint64_t index, const Json& json, bool trans
       if (name.is_string() && names.contains(name.get<std::string>()))
         kept["required"].push_back(name);
   }
-  m.source = std::make_shared<MaterialSource>(MaterialSource{
-      MaterialSource::Format::Gltf, kept.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  m.source = std::make_shared<MaterialSource>(
+      MaterialSource{MaterialSource::Format::Gltf, jsonText(kept)});
 }
 
 std::optional<GltfDocument::Json> GltfMaterials::keptTexture(std::uint64_t texture,

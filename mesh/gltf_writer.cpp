@@ -11,6 +11,7 @@
 
 #include "core/base64.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "mesh/gltf_material_writer.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/split_vertices.h"
@@ -381,7 +382,7 @@ class GlbWriter {
   }
 
   /// Names may hold bytes that are not UTF-8; they are replaced rather than refused.
-  std::string text() const { return json_.dump(-1, ' ', false, Json::error_handler_t::replace); }
+  std::string text() const { return jsonText(json_); }
 
   std::string container() const {
     std::string json = text();

@@ -9,6 +9,7 @@
 
 #include "core/base64.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "mesh/jpeg.h"
 #include "report/encode.h"
 #include "report/resources.h"
@@ -24,10 +25,6 @@ constexpr int kQuality = 86;  // of pictures
 constexpr const char* kPolicy =
     "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src "
     "'unsafe-inline'; base-uri 'none'; form-action 'none'";
-
-std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 std::string textOf(const Json& object, const char* key) {
   const auto at = object.find(key);
@@ -78,7 +75,7 @@ std::string ReportPage::html(const Json& report) const {
     for (const Json& note : *notes)
       if (note.is_string()) html += "<li>" + escapedHtml(note.get<std::string>()) + "</li>\n";
   html += "</ul>\n</main>\n<script type=\"application/json\" id=\"report\">" +
-          escapedJson(dumped(report)) + "</script>\n";
+          escapedJson(jsonText(report)) + "</script>\n";
   for (const Part& view : views_) {
     html += "<script type=\"application/json\" data-view=\"" + escapedHtml(view.name) + "\">" +
             escapedJson(view.text) + "</script>\n";
@@ -100,15 +97,15 @@ std::string ReportPage::html(const Json& report) const {
 
 std::string viewPart(const ViewMesh& view) {
   const auto corner = [](const Vec3d& p) { return Json{p.x, p.y, p.z}; };
-  return dumped({{"vertices", view.vertices.size()},
-                 {"triangles", view.triangles.size()},
-                 {"of_triangles", view.ofTriangles},
-                 {"box", {corner(view.box.min), corner(view.box.max)}},
-                 {"floor",
-                  {{"side", ViewFloor::kSide},
-                   {"box", {corner(view.floor.box.min), corner(view.floor.box.max)}}}},
-                 {"jump_steps", ViewVertex::kJumpSteps},
-                 {"data", encodeBase64(packViewMesh(view))}});
+  return jsonText(Json{{"vertices", view.vertices.size()},
+                       {"triangles", view.triangles.size()},
+                       {"of_triangles", view.ofTriangles},
+                       {"box", {corner(view.box.min), corner(view.box.max)}},
+                       {"floor",
+                        {{"side", ViewFloor::kSide},
+                         {"box", {corner(view.floor.box.min), corner(view.floor.box.max)}}}},
+                       {"jump_steps", ViewVertex::kJumpSteps},
+                       {"data", encodeBase64(packViewMesh(view))}});
 }
 
 Json toJson(const std::vector<Mark>& marks) {

@@ -83,6 +83,34 @@ TEST_F(CompareCommand, TakesExamplesTooSmallToMeasure) {
   EXPECT_THAT(runs[1].at("why").get<std::string>(), HasSubstr("`block` 16"));
 }
 
+// Such names are rare and legal.
+TEST_F(CompareCommand, TakesAnExampleWhoseNameIsNotUtf8) {
+  fs::copy_file(folder_ / "hills.pgm", folder_ / "we\xffird.pgm");
+  const CommandResult outcome = runExemplar(
+      "compare we\xffird.pgm -o made --seeds 1 --engines blocks:block=4 --resolution 8 --size "
+      "60x40 "
+      "--samples 1",
+      folder_.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(read("compare.json").dump(), HasSubstr("we\xef\xbf\xbdird.pgm"));
+}
+
+TEST_F(CompareCommand, MakesADamagedRunAgain) {
+  const std::string once = "--seeds 1 --engines blocks:block=4 --resolution 8";
+  ASSERT_EQ(compare(once).status, 0);
+  const fs::path run = file("blocks-block-4-0.json");
+  const std::string whole = readFile(run);
+  std::string numbers = whole;
+  numbers.replace(numbers.find("\"complete\""), 10, "12");
+  for (const std::string& damaged :
+       {std::string("{"), std::string("[3]"), whole.substr(0, whole.size() / 2), numbers}) {
+    writeFile(run, damaged);
+    const CommandResult outcome = compare(once);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(json::parse(readFile(run)).at("status"), "complete");
+  }
+}
+
 TEST_F(CompareCommand, SweepsOverSettings) {
   const CommandResult outcome =
       compare("--seeds 1 --resolution 24 --engines blocks:block=8,blocks:block=4:levels=2");
