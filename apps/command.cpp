@@ -89,9 +89,11 @@ void SettingOptions::install(CLI::App& command, Settings& into) const {
           ->group(option.group);
       continue;
     }
+    // The two that are typed most have a short name, too.
+    const std::string brief = key == "scale" ? "-s," : key == "resolution" ? "-r," : "";
     command
         .add_option(
-            optionOf(key),
+            brief + optionOf(key),
             [&into, key](const CLI::results_t& texts) {
               for (const std::string& text : texts) into.add(key, text);
               return true;
@@ -122,11 +124,12 @@ ReadOptions readingOf(const Settings& settings, Form form) {
 void addPictureOptions(CLI::App& command, PictureOptions& options, const std::string& size) {
   command
       .add_option("--view", options.view,
-                  "iso, front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees")
-      ->capture_default_str()
+                  "iso, front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees (" +
+                      options.view + ")")
+      ->option_text("NAME")
       ->group("Picture");
-  command.add_option(size, options.size, "the picture's WIDTHxHEIGHT in pixels")
-      ->capture_default_str()
+  command.add_option(size, options.size, "the picture's size in pixels (" + options.size + ")")
+      ->option_text("WIDTHxHEIGHT")
       ->group("Picture");
   command.add_option("--samples", options.samples, "rays a pixel")
       ->check(CLI::Range(1, 4096))

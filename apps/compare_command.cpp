@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "core/error.h"
 #include "engine/comparison.h"
 #include "engine/request.h"
@@ -112,6 +113,7 @@ Command addCompareCommand(CLI::App& app) {
   rows.install(*command, options->settings);
   addReadingOptions(*command, Form::Field, options->settings);
   addPictureOptions(*command, options->picture);
+  command->footer(examplesFooter({"compare chainmail -o chainmail_compared --seeds 2"}));
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { compareEngines(*options, terminal); }};
 }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "core/json_text.h"
 #include "engine/engine.h"
 #include "engine/json.h"
@@ -24,6 +25,7 @@ Command addEnginesCommand(CLI::App& app) {
       command->add_flag("--json", options->json, "every setting as JSON, for programs");
   command->add_flag("--markdown", options->markdown, "every setting as a page (docs/settings.md)")
       ->excludes(json);
+  command->footer(examplesFooter({"engines", "engines --json"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             if (options->json) {
               terminal.print(jsonText(settingsJson(), 2) + "\n");

@@ -8,8 +8,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
-#include <iostream>
+#include <memory>
 #include <new>
 #include <set>
 #include <span>
@@ -18,11 +19,15 @@
 #include <utility>
 #include <vector>
 
+#include "apps/advice.h"
 #include "apps/command.h"
+#include "apps/help.h"
 #include "apps/terminal.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "engine/engine.h"
 #include "engine/request.h"
+#include "engine/source.h"
 
 namespace {
 
@@ -60,25 +65,45 @@ bool goesOn(const std::string& word) {
   return (numbers || pair) && !std::filesystem::exists(word, error);
 }
 
-/// The command's words, with an option that may be repeated once before each of its values:
-/// "--pin A B" is "--pin A --pin B".
-std::vector<std::string> spelledOut(std::span<char*> words) {
-  std::set<std::string> repeated;
+bool isPlainNumber(const std::string& word) {
+  std::error_code error;
+  return word.find_first_not_of("0123456789.") == word.npos && exemplar::parseNumber(word) &&
+         !std::filesystem::exists(word, error);
+}
+
+/// The command's words, with an option that may be repeated once before each of its values, and
+/// three numbers in one word: "--pin A B" is "--pin A --pin B", "--scale 2 2 1" "--scale 2,2,1".
+std::vector<std::string> spelledOut(std::span<const std::string> words) {
+  using exemplar::Form;
+  std::set<std::string> repeated, triples;
   const auto note = [&](std::span<const exemplar::Setting> settings) {
-    for (const exemplar::Setting& setting : settings)
+    for (const exemplar::Setting& setting : settings) {
+      const bool triple = setting.type == exemplar::SettingType::Size ||
+                          setting.type == exemplar::SettingType::Lengths;
       if (setting.repeats) repeated.insert("--" + setting.key);
+      if (triple) triples.insert("--" + setting.key);
+    }
   };
   note(exemplar::requestSettings());
+  for (const Form form : {Form::Field, Form::Labels, Form::Polygons, Form::Map})
+    note(exemplar::readingSettings(form).settings());
   for (const exemplar::Engine* engine : exemplar::engines()) note(engine->settings());
+  triples.insert("-s");
+
   std::vector<std::string> all;
-  for (std::size_t w = 1; w < words.size(); ++w) {
-    all.emplace_back(words[w]);
-    if (!repeated.contains(all.back()) || w + 1 == words.size()) continue;
-    const std::string option = all.back();
-    all.emplace_back(words[++w]);
-    for (; w + 1 < words.size() && goesOn(words[w + 1]); ++w) {
-      all.push_back(option);
-      all.emplace_back(words[w + 1]);
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    all.push_back(words[w]);
+    if (triples.contains(words[w]) && w + 3 < words.size() &&
+        std::ranges::all_of(words.subspan(w + 1, 3), isPlainNumber)) {
+      all.push_back(words[w + 1] + "," + words[w + 2] + "," + words[w + 3]);
+      w += 3;
+    } else if (repeated.contains(words[w]) && w + 1 < words.size()) {
+      const std::string& option = words[w];
+      all.push_back(words[++w]);
+      for (; w + 1 < words.size() && goesOn(words[w + 1]); ++w) {
+        all.push_back(option);
+        all.push_back(words[w + 1]);
+      }
     }
   }
   return all;
@@ -87,39 +112,46 @@ std::vector<std::string> spelledOut(std::span<char*> words) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using namespace exemplar;
   CLI::App app{
-      "exemplar: give it one example; get as much more of it as you want.\n"
-      "An example is a mesh (.obj .ply .stl .off .glb), a volume (.vdb), a height map (.png .pgm\n"
-      ".asc), a grid of labels (.txt .vox) or a scene (.toml). 'exemplar COMMAND --help' lists a\n"
-      "command's options."};
+      "exemplar: give it one example; get as much more of it as you want.\n\n" +
+      wrapped(
+          std::string("An example is a mesh, a volume, a height map, a picture, a grid of labels "
+                      "(") +
+              kExampleEndings + ") or a bundled scene, by its name.",
+          0)};
   app.name("exemplar");
   app.set_version_flag("--version", EXEMPLAR_VERSION);
-  app.require_subcommand(1);
-  app.get_formatter()->column_width(34);
-
-  using namespace exemplar;
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.footer(examplesFooter({"synth chainmail -o more.glb --preview more.png",
+                             "synth wall.obj -o wall_more.obj --scale 3,1,1", "synth --help"}));
   const std::vector<Command> commands{
       addSynthCommand(app),   addSdfCommand(app),    addMeshCommand(app),     addRenderCommand(app),
       addMeasureCommand(app), addSceneCommand(app),  addVoxelizeCommand(app), addInfoCommand(app),
       addCompareCommand(app), addEnginesCommand(app)};
+  for (const Command& command : commands)
+    command.app->set_help_all_flag("--help-all", "list every option and exit");
+  const std::vector<std::string> given(argv + 1, argv + argc);
+  if (given.empty()) {
+    std::fputs(app.help().c_str(), stdout);
+    return kDone;
+  }
   try {
-    std::vector<std::string> words =
-        spelledOut(std::span<char*>(argv, static_cast<std::size_t>(argc)));
+    std::vector<std::string> words = spelledOut(given);
     std::reverse(words.begin(), words.end());  // as CLI11 wants them
     app.parse(std::move(words));
+    if (app.get_subcommands().empty()) throw CLI::RequiredError("A command");
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
     // Programs that asked for JSON read nothing else.
-    const std::span<char*> words(argv, static_cast<std::size_t>(argc));
     bool json = false;
-    for (std::size_t w = 1; w < words.size(); ++w) {
-      const std::string_view word = words[w];
-      json = json || word == "--progress=json" ||
-             (word == "json" && std::string_view(words[w - 1]) == "--progress");
+    for (std::size_t w = 0; w < given.size(); ++w) {
+      json = json || given[w] == "--progress=json" ||
+             (w > 0 && given[w] == "json" && given[w - 1] == "--progress");
     }
     Terminal(json ? ProgressStyle::Json : ProgressStyle::None, false)
-        .fail(std::string(e.what()) + " (see exemplar --help)", kWrongInput);
+        .fail(adviceOn(app, given, e), kWrongInput);
     return kWrongInput;
   }
   for (const Command& command : commands) {

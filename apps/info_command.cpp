@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "core/file.h"
 #include "core/json_text.h"
 #include "engine/json.h"
@@ -179,6 +180,7 @@ Command addInfoCommand(CLI::App& app) {
   command->add_flag("--list", options->list, "list every label with its number of cells");
   command->add_option("--json", options->json, "write it to this .json; - prints it");
   addReadingOptions(*command, Form::Labels, options->settings);
+  command->footer(examplesFooter({"info wall.obj", "info castle --list"}));
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { info(*options, terminal); }};
 }

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_text.h"
@@ -160,6 +161,8 @@ Command addMeasureCommand(CLI::App& app) {
            readingSettings(Form::Labels).settings());
   rows.install(*command, options->settings);
   addPictureOptions(*command, options->picture);
+  command->footer(examplesFooter(
+      {"measure wall.obj wall_more.obj -s 3,1,1", "measure castle town.vox --json town.json"}));
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { measureFiles(*options, terminal); }};
 }

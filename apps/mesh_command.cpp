@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "core/error.h"
 #include "engine/output.h"
 #include "engine/realize.h"
@@ -135,6 +136,7 @@ Command addMeshCommand(CLI::App& app) {
   rows.install(*command, options->settings);
   addReadingOptions(*command, Form::Field, options->settings);
 
+  command->footer(examplesFooter({"mesh statue.vdb -o statue.obj --triangles 20000"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             if (options->origins.empty() != options->example.empty())
               throw InputError("--origins and --example go together");

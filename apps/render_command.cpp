@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "engine/output.h"
 #include "engine/realize.h"
 #include "mesh/image.h"
@@ -30,6 +31,7 @@ Command addRenderCommand(CLI::App& app) {
   addPictureOptions(*command, options->picture);
   addReadingOptions(*command, Form::Field, options->settings);
 
+  command->footer(examplesFooter({"render statue.obj more.glb -o side_by_side.png"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             requireOutput(options->output, ".png");
             RenderOptions picture = renderOptions(options->picture);

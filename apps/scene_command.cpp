@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "core/error.h"
 #include "engine/output.h"
 #include "engine/source.h"
@@ -58,6 +59,7 @@ Command addSceneCommand(CLI::App& app) {
   rows.add("Scene", "", sceneSettings().settings());
   rows.install(*command, options->settings);
 
+  command->footer(examplesFooter({"scene chainmail -o chainmail.glb"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             requireOutput(options->output, kMeshEndings);
             SceneRequest request;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "engine/output.h"
 #include "engine/words.h"
 #include "sdf/vdb_file.h"
@@ -24,6 +25,7 @@ Command addSdfCommand(CLI::App& app) {
   command->add_option("-o,--output", options->output, "the .vdb file to write")->required();
   addReadingOptions(*command, Form::Field, options->settings);
 
+  command->footer(examplesFooter({"sdf statue.stl -o statue.vdb -r 128"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             requireOutput(options->output, ".vdb");
             const Example example =

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -394,6 +395,9 @@ Command addSynthCommand(CLI::App& app) {
       "(NAME.png, NAME_example.png): to edit them and give them back");
   addSettings(*command, options->settings);
   addPictureOptions(*command, options->picture, "--picture-size");
+  command->footer(examplesFooter({"synth chainmail -o more.glb --preview more.png",
+                                  "synth wall.obj -o wall_more.obj -s 3,1,1 --seed 7",
+                                  "synth castle -o town.glb -o town.vox --size 40,40,12"}));
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { synth(*options, terminal); }};
 }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "core/file.h"
 #include "engine/output.h"
 #include "engine/words.h"
@@ -71,6 +72,7 @@ Command addVoxelizeCommand(CLI::App& app) {
   rows.add("Reading the example", "", fillSettings().settings());
   rows.add("Reading the example", "", readingSettings(Form::Labels).settings());
   rows.install(*command, options->settings);
+  command->footer(examplesFooter({"voxelize house.glb -o house.vox --cell 0.5"}));
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { voxelize(*options, terminal); }};
 }

@@ -3,8 +3,11 @@
 
 #include "core/text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace exemplar {
 namespace {
@@ -105,6 +108,35 @@ std::string lowerCase(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return lower;
+}
+
+std::string nearestName(std::string_view word, std::span<const std::string> names) {
+  // Optimal string alignment distance, by rows.
+  const auto distance = [&](std::string_view name) {
+    std::vector<std::size_t> beforeLast, last, row(name.size() + 1);
+    for (std::size_t j = 0; j <= name.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= word.size(); ++i) {
+      beforeLast = std::move(last);
+      last = row;
+      row[0] = i;
+      for (std::size_t j = 1; j <= name.size(); ++j) {
+        row[j] =
+            std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (word[i - 1] != name[j - 1])});
+        if (i > 1 && j > 1 && word[i - 1] == name[j - 2] && word[i - 2] == name[j - 1])
+          row[j] = std::min(row[j], beforeLast[j - 2] + 1);
+      }
+    }
+    return row[name.size()];
+  };
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& name : names) {
+    if (const std::size_t d = distance(name); d < least) {
+      least = d;
+      nearest = name;
+    }
+  }
+  return nearest;
 }
 
 }  // namespace exemplar

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,5 +29,10 @@ std::string counted(std::size_t count, std::string_view noun);
 
 /// ASCII letters made lower-case; other bytes stay, whatever the locale.
 std::string lowerCase(std::string_view text);
+
+/// The name that was meant by a mistyped one: the nearest in letters to leave out, put in, replace
+/// or swap with the next, the first of equally near ones; empty where none is nearer than a third
+/// of the word's letters (or one letter). O(length^2) a name.
+std::string nearestName(std::string_view word, std::span<const std::string> names);
 
 }  // namespace exemplar

@@ -3,8 +3,13 @@
 
 #include "engine/source.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "mesh/mesh_file.h"
 #include "mesh/scene.h"
 #include "sdf/vdb_file.h"
@@ -54,6 +59,15 @@ bool holdsLabels(const std::filesystem::path& path) {
 
 }  // namespace
 
+Source::Source(const std::filesystem::path& path) : path_(path) {
+  std::error_code error;
+  if (path.empty() || path.has_extension() || path.has_parent_path() ||
+      std::filesystem::exists(path, error))
+    return;
+  const std::vector<std::string> scenes = bundledScenes();
+  if (std::ranges::find(scenes, path.string()) != scenes.end()) path_ += ".toml";
+}
+
 SourceKind sourceKind(const Source& source) {
   if (source.inMemory<TriangleMesh>()) return SourceKind::Mesh;
   if (source.inMemory<DistanceField>()) return SourceKind::Volume;
@@ -74,7 +88,9 @@ SourceKind sourceKind(const Source& source) {
   }
   if (ending == ".toml") return isPieceScene(path) ? SourceKind::Pieces : SourceKind::Scene;
   if (ending == ".vdb") return holdsLabels(path) ? SourceKind::Labels : SourceKind::Volume;
-  throw InputError(source.name() + ": not a kind of example; use " + kExampleEndings);
+  const std::string scene = ending.empty() ? nearestName(source.name(), bundledScenes()) : "";
+  throw InputError(source.name() + ": not a kind of example; use " + kExampleEndings +
+                   (scene.empty() ? "" : ", or the scene " + scene));
 }
 
 void requireThere(const Source& source) {

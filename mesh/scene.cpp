@@ -288,13 +288,19 @@ bool isPieceScene(const fs::path& path) {
 }
 
 fs::path findScene(const std::string& name) {
-  if (lowerExtension(name) == ".toml" || name.find('/') != std::string::npos) return name;
-  for (const fs::path& folder : sceneFolders()) {
-    const fs::path path = folder / (name + ".toml");
-    if (fs::exists(path)) return path;
+  const fs::path asked(name);
+  std::error_code error;
+  if (fs::exists(asked, error) && lowerExtension(asked) == ".toml") return asked;
+  const std::string folder = asked.parent_path().string();
+  if (folder.empty() || folder == "scenes") {
+    const fs::path file = asked.stem().string() + ".toml";
+    for (const fs::path& scenes : sceneFolders())
+      if (fs::exists(scenes / file, error)) return scenes / file;
   }
+  if (lowerExtension(asked) == ".toml" || !folder.empty()) return asked;
+  const std::vector<std::string> known = bundledScenes();
   std::string names;
-  for (const std::string& known : bundledScenes()) names += (names.empty() ? "" : ", ") + known;
+  for (const std::string& one : known) names += (names.empty() ? "" : ", ") + one;
   throw InputError(name + ": no such scene; the bundled ones are " +
                    (names.empty() ? "missing" : names));
 }

@@ -53,9 +53,10 @@ Scene readScene(std::string_view bytes, const std::string& name, const SceneOpti
 /// Whether a scene file's kind is one that is made of model pieces. False where it cannot be read.
 bool isPieceScene(const std::filesystem::path& path);
 
-/// The bundled scene file called `name` ("chainmail"), or a path as it is. Looks in the folder that
-/// EXEMPLAR_SCENES names, in the source tree and in the installed share folder. Throws `InputError`
-/// listing the bundled names.
+/// The bundled scene file called `name` ("chainmail", "chainmail.toml" or "scenes/chainmail.toml",
+/// where there is no such file), or a path as it is. Looks in the folder that EXEMPLAR_SCENES
+/// names, beside the program, in the source tree and in the installed share folder. Throws
+/// `InputError` listing the bundled names.
 std::filesystem::path findScene(const std::string& name);
 
 /// The names of the bundled scenes, sorted.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include "core/file.h"
 #include "mesh/mesh_file.h"
@@ -16,7 +17,9 @@
 namespace exemplar {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 struct BadInput {
   const char* name;       ///< of the test
@@ -88,15 +91,53 @@ TEST(BadCommand, MissingFileIsNamed) {
   EXPECT_THAT(result.err, HasSubstr("none.obj: no such file"));
 }
 
-TEST(BadCommand, NoCommandAndUnknownOptionAreStatusTwo) {
+TEST(BadCommand, WhatWasProbablyMeantIsSaid) {
   const TestFolder folder;
-  for (const auto& [arguments, says] : {std::pair{"", "A subcommand is required"},
-                                        {"frobnicate", "A subcommand is required"},
-                                        {"synth e.obj -o o.obj --frobnicate", "--frobnicate"}}) {
+  writeFile(folder / "wall.obj", kTriangle);
+  for (const auto& [arguments, says] : {
+           std::pair{"frobnicate", "frobnicate: no such command, and no example"},
+           {"sinth e.obj", "did you mean synth?"},
+           {"wall.obj",
+            "wall.obj: say what to do with it: exemplar synth wall.obj -o wall_more.obj"},
+           {"chainmail", "chainmail: say what to do with it: exemplar synth chainmail -o"},
+           {"--frobnicate", "--frobnicate"},
+           {"synth e.obj -o o.obj --frobnicate", "--frobnicate: exemplar synth has no such option"},
+           {"synth e.obj -o o.obj --sacle 2",
+            "--sacle: exemplar synth has no such option; did you mean --scale?"},
+           {"render e.obj -o o.png --veiw=top", "did you mean --view?"},
+           {"synth e.obj", "--output is required"},
+           {"synth chainmial -o o.obj", "or the scene chainmail"},
+       }) {
     const auto run = runExemplar(arguments, folder.path());
     EXPECT_EQ(run.status, 2) << arguments;
-    EXPECT_THAT(run.err, HasSubstr(says));
+    EXPECT_THAT(run.err, HasSubstr(says)) << arguments;
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
   }
+}
+
+TEST(BadCommand, HelpFitsEightyColumnsAndListsEveryOption) {
+  const TestFolder folder;
+  EXPECT_EQ(runExemplar("", folder.path()).out, runExemplar("--help", folder.path()).out);
+  const std::string brief = runExemplar("synth --help", folder.path()).out;
+  const std::string whole = runExemplar("synth --help-all", folder.path()).out;
+  EXPECT_THAT(brief, AllOf(HasSubstr("Examples:"), HasSubstr("-s, --scale X,Y,Z"),
+                           Not(HasSubstr("--completeness"))));
+  EXPECT_THAT(whole, HasSubstr("--completeness"));
+  for (const std::string& text : {brief, whole, runExemplar("--help", folder.path()).out}) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      const bool oneWord = line.find(' ', line.find_first_not_of(' ')) == std::string::npos;
+      EXPECT_TRUE(line.size() <= 80 || oneWord) << line;
+    }
+  }
+}
+
+TEST(BadCommand, ThreeNumbersMayBeThreeWords) {
+  const TestFolder folder;
+  writeFile(folder / "e.txt", "one\ntwo\nthree\n2 2 1\n\n1 1\n1 1\n");
+  EXPECT_EQ(runExemplar("synth e.txt -o o.txt --size 4 3 1", folder.path()).status, 0);
+  EXPECT_EQ(runExemplar("synth e.txt -o s.txt -s 2,1.5,1", folder.path()).status, 0);
+  EXPECT_EQ(readFile(folder / "o.txt"), readFile(folder / "s.txt"));
 }
 
 TEST(BadCommand, HelpAndVersionAreStatusZero) {

@@ -1,0 +1,116 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "apps/help.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace exemplar {
+namespace {
+
+constexpr std::size_t kColumns = 80;
+constexpr int kNameIndent = 2, kMeaningIndent = 6;
+/// Groups that begin so are told by their number of options, unless all is asked for.
+constexpr std::string_view kEngine = "Engine ";
+
+bool isCollapsed(const std::string& group, CLI::AppFormatMode mode) {
+  return mode != CLI::AppFormatMode::All && group.starts_with(kEngine);
+}
+
+std::vector<const CLI::Option*> optionsOf(const CLI::App* app, const std::string& group) {
+  return app->get_options([&](const CLI::Option* option) {
+    return option->get_group() == group && option->nonpositional();
+  });
+}
+
+}  // namespace
+
+HelpFormatter::HelpFormatter() {
+  label("TEXT", "FILE");  // what is no file says itself what it is
+  label("REQUIRED", "(required)");
+}
+
+std::string wrapped(std::string_view text, int indent) {
+  std::string lines, line;
+  const std::string margin(static_cast<std::size_t>(indent), ' ');
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    if (!line.empty() && line.size() + 1 + word.size() > kColumns) {
+      lines += line + "\n";
+      line.clear();
+    }
+    line += line.empty() ? margin + word : " " + word;
+  }
+  return line.empty() ? lines : lines + line + "\n";
+}
+
+std::string examplesFooter(const std::vector<std::string>& lines) {
+  std::string text = "Examples:";
+  for (const std::string& line : lines) text += "\n  exemplar " + line;
+  return text;
+}
+
+std::string HelpFormatter::make_group(std::string group, bool isPositional,
+                                      std::vector<const CLI::Option*> options) const {
+  std::string text = "\n" + wrapped(group + ":", 0);
+  for (const CLI::Option* option : options) text += make_option(option, isPositional);
+  return text;
+}
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
+                                     CLI::AppFormatMode mode) const {
+  std::string text =
+      app->get_description() + "\n" + make_usage(app, std::move(name)) + make_positionals(app);
+  const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
+  if (!commands.empty()) text += "\nCommands:\n";
+  for (const CLI::App* command : commands) text += make_subcommand(command);
+  std::string collapsed;
+  for (const std::string& group : app->get_groups()) {
+    const std::vector<const CLI::Option*> options = optionsOf(app, group);
+    if (group.empty() || options.empty()) continue;
+    if (isCollapsed(group, mode)) {
+      const std::string engine = group.substr(kEngine.size(), group.find(':') - kEngine.size());
+      collapsed +=
+          (collapsed.empty() ? "" : ", ") + engine + " (" + std::to_string(options.size()) + ")";
+    } else {
+      text += make_group(group, false, options);
+    }
+  }
+  if (!collapsed.empty()) {
+    text += "\n" + wrapped("Options of the engines " + collapsed + ": exemplar " + app->get_name() +
+                               " --help-all lists them.",
+                           0);
+  }
+  return text + "\n" + make_footer(app);
+}
+
+std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) const {
+  std::string text = "\nUsage: exemplar";
+  if (app->get_parent() == nullptr) return text + " COMMAND ...\n";
+  text += " " + std::move(name).substr(name.rfind(' ') + 1);
+  for (const CLI::Option* option :
+       app->get_options([](const CLI::Option* o) { return o->get_positional(); }))
+    text += " " + make_option_usage(option);
+  for (const CLI::Option* option : app->get_options(
+           [](const CLI::Option* o) { return o->nonpositional() && o->get_required(); }))
+    text += " " + option->get_name() + " FILE";
+  return text + " [options]\n";
+}
+
+std::string HelpFormatter::make_subcommand(const CLI::App* sub) const {
+  std::string name = "  " + sub->get_name();
+  name.resize(std::max<std::size_t>(name.size() + 1, 12), ' ');
+  return name + sub->get_description() + "\n";
+}
+
+std::string HelpFormatter::make_option(const CLI::Option* option, bool isPositional) const {
+  std::string name = make_option_name(option, isPositional);
+  if (const std::size_t comma = name.find(','); comma != name.npos) name.insert(comma + 1, " ");
+  if (!isPositional) name += make_option_opts(option);
+  const std::string meaning = make_option_desc(option);
+  return wrapped(name, kNameIndent) + wrapped(meaning, kMeaningIndent);
+}
+
+}  // namespace exemplar

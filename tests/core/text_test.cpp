@@ -1,0 +1,29 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "core/text.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace exemplar {
+namespace {
+
+TEST(NearestName, IsTheOneThatWasMeant) {
+  const std::vector<std::string> names{"--scale", "--scene-seed", "--seed", "--size", "--sides"};
+  EXPECT_EQ(nearestName("--sacle", names), "--scale");  // swapped
+  EXPECT_EQ(nearestName("--scal", names), "--scale");   // left out
+  EXPECT_EQ(nearestName("--sseed", names), "--seed");   // put in
+  EXPECT_EQ(nearestName("--sire", names), "--size");    // replaced, the first of two
+  EXPECT_EQ(nearestName("--scene", names), "--seed");   // within a third
+  EXPECT_EQ(nearestName("--frobnicate", names), "");
+  EXPECT_EQ(nearestName("", names), "");
+  EXPECT_EQ(nearestName("x", std::vector<std::string>{"y"}), "y");
+  EXPECT_EQ(nearestName("xy", std::vector<std::string>{"ab"}), "");
+  EXPECT_EQ(nearestName("scale", {}), "");
+}
+
+}  // namespace
+}  // namespace exemplar
