@@ -25,4 +25,21 @@ inline double kolmogorovSmirnov(const std::vector<double>& a, const std::vector<
   return most;
 }
 
+/// The earth mover's distance of two samples: how far, on average, values have to be moved to make
+/// one distribution of the other; in their unit. Both are ascending and not empty. O(values).
+inline double earthMoversDistance(const std::vector<double>& a, const std::vector<double>& b) {
+  double distance = 0, last = std::min(a.front(), b.front());
+  std::size_t i = 0, j = 0;
+  while (i < a.size() || j < b.size()) {
+    const bool fromA = j == b.size() || (i < a.size() && a[i] <= b[j]);
+    const double value = fromA ? a[i] : b[j];
+    distance += std::abs(static_cast<double>(i) / static_cast<double>(a.size()) -
+                         static_cast<double>(j) / static_cast<double>(b.size())) *
+                (value - last);
+    last = value;
+    ++(fromA ? i : j);
+  }
+  return distance;
+}
+
 }  // namespace exemplar

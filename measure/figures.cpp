@@ -100,6 +100,29 @@ void addMesh(List& list, const MeshHealth& m) {
   list.add("degenerate_triangles", m.degenerateTriangles, "without area");
 }
 
+/// A figure that every map of terrain has.
+struct TerrainRow {
+  const char* key;
+  std::optional<double> TerrainFigures::*figure;
+  const char* meaning;
+};
+constexpr TerrainRow kTerrainRows[] = {
+    {"flooded_share", &TerrainFigures::floodedShare, "of the cells, below where they spill over"},
+    {"depressions_per_million_cells", &TerrainFigures::depressions, "closed ones"},
+    {"depressions_per_km2", &TerrainFigures::depressionsKm2, "where the unit is known"},
+    {"depression_depth", &TerrainFigures::depressionDepth, "mean"},
+    {"drainage_density", &TerrainFigures::drainageDensity, "length of streams for each area"},
+    {"bifurcation_ratio", &TerrainFigures::bifurcation, "streams of an order for each of the next"},
+    {"highest_order", &TerrainFigures::highestOrder, "Strahler's; grows with the map"},
+    {"valley_length", &TerrainFigures::valleyLength, "mean, between closed depressions"},
+    {"valley_reach", &TerrainFigures::valleyReach, "mean, weighted by length"},
+    {"ridge_length", &TerrainFigures::ridgeLength, "mean"},
+    {"spectrum_slope", &TerrainFigures::spectrumSlope, "of power over wave number, logarithms"},
+    {"relief", &TerrainFigures::relief, "highest less lowest"},
+    {"largest_step", &TerrainFigures::largestStep, "between neighbors"},
+    {"flat_share", &TerrainFigures::flatShare, "of the cells, as high as their neighbors"},
+    {"repeated_peaks", &TerrainFigures::repeatedPeaks, "share of peaks that occur twice"}};
+
 std::string text(const Figure& figure) {
   char number[64];
   if (const auto* b = std::get_if<bool>(&figure.value)) return *b ? "yes" : "no";
@@ -170,6 +193,69 @@ std::vector<Figure> figures(const LayersLikeness& l) {
   list.add("repeated", l.repeated, "share of windows that occur twice; 0 is best");
   list.add("repeated_example", l.exampleRepeated, "the same in the example");
   return std::move(list.figures);
+}
+
+std::vector<Figure> figures(const TerrainLikeness& t) {
+  List list;
+  list.group("terrain");
+  const auto distance = [&](const std::string& key, const TerrainLikeness::Distance& d) {
+    list.add(key, d.result, "earth mover's, in deviations of the example; the floor is best");
+    list.add(key + "_floor", d.floor, "between the example's halves");
+  };
+  distance("heights_distance", t.heights);
+  distance("slopes_distance", t.slopes);
+  distance("curvature_distance", t.curvature);
+  for (const TerrainRow& row : kTerrainRows) {
+    const std::string key = row.key;
+    list.add(key, t.result.*row.figure, row.meaning);
+    list.add(key + "_example", t.example.*row.figure, "the example's");
+    list.add(key + "_half1", t.firstHalf.*row.figure, "of its first half");
+    list.add(key + "_half2", t.secondHalf.*row.figure, "of its second half");
+  }
+  list.add("step_ratio", t.stepRatio, "the largest step over the example's; 1 is best");
+  list.add("seam_step_ratio", t.seamStepRatio, "the largest across a seam; 1 or less is best");
+  list.add("seam_mean_step_ratio", t.seamMeanStepRatio, "the mean across seams; 1 is best");
+  list.add("verbatim_share", t.verbatimShare, "of windows that the example has; 0 is new");
+  return std::move(list.figures);
+}
+
+std::string figuresTable(const TerrainLikeness& t) {
+  using Cell = std::optional<double>;
+  struct Row {
+    std::string key;
+    Cell example, first, second, result;
+    const char* meaning;
+  };
+  std::vector<Row> rows;
+  const auto distance = [&](const char* key, const TerrainLikeness::Distance& d) {
+    rows.push_back({key, {}, {}, d.floor, d.result, "to the example; its half's, to the other"});
+  };
+  distance("heights_distance", t.heights);
+  distance("slopes_distance", t.slopes);
+  distance("curvature_distance", t.curvature);
+  for (const TerrainRow& row : kTerrainRows) {
+    rows.push_back({row.key, t.example.*row.figure, t.firstHalf.*row.figure,
+                    t.secondHalf.*row.figure, t.result.*row.figure, row.meaning});
+  }
+  rows.push_back({"step_ratio", {}, {}, {}, t.stepRatio, "the largest over the example's"});
+  rows.push_back({"seam_step_ratio", {}, {}, {}, t.seamStepRatio, "the largest across a seam"});
+  rows.push_back({"seam_mean_step_ratio", {}, {}, {}, t.seamMeanStepRatio, "mean across seams"});
+  rows.push_back({"verbatim_share", {}, {}, {}, t.verbatimShare, "windows that the example has"});
+  std::size_t keys = 0;
+  for (const Row& row : rows) keys = std::max(keys, row.key.size());
+  constexpr std::size_t kColumn = 11;
+  const auto cell = [](const std::string& shown) {
+    return std::string(shown.size() < kColumn ? kColumn - shown.size() : 1, ' ') + shown;
+  };
+  std::string table = "terrain" + std::string(keys - 5, ' ') + cell("example") + cell("its half") +
+                      cell("other half") + cell("result") + "\n";
+  for (const Row& row : rows) {
+    table += "  " + row.key + std::string(keys - row.key.size(), ' ');
+    for (const Cell& value : {row.example, row.first, row.second, row.result})
+      table += cell(value ? text({{}, {}, *value, {}}) : "-");
+    table += std::string("  ") + row.meaning + "\n";
+  }
+  return table;
 }
 
 std::string figuresTable(const std::vector<Figure>& figures) {
