@@ -68,9 +68,29 @@ void addNovelty(List& list, const Novelty& n) {
   list.group("novelty");
   list.add("distance_to_example", n.distance, "1 - IoU, cell by cell; 0 is a copy");
   list.add("distance_to_shifted_example", n.copyDistance, "1 - IoU, best placed; 0 is a copy");
+  list.add("distance_to_rolled_example", n.rolled.distance,
+           "1 - IoU after the best cyclic shift; 0 is a moved copy or its halves exchanged");
+  list.add("distance_to_rolled_example_least", n.rolled.least,
+           "the same of the most alike window of the example's size");
+  list.add("distance_to_turned_example", n.turned.distance,
+           "the same over quarter turns and mirror images, too");
+  std::string fair;
+  for (int axis = 0; axis < 3; ++axis)
+    if (n.rollingIsFair[axis]) fair += "xyz"[axis];
+  list.add("rolling_is_fair", fair.empty() ? std::string("none") : fair,
+           "axes along which the example fills its box evenly, so that moving it is no loss");
   list.add("verbatim_run", n.verbatimRun, "mean size of copied regions, in examples; 1 is a copy");
   list.add("use", n.use, "evenness of the use of the example's surface; 1 is even");
   list.add("used_share", n.usedShare, "share of the example's surface in use");
+  const auto offsets = [&](auto OffsetUse::*figure) {
+    return n.offsets ? std::optional((*n.offsets).*figure) : std::nullopt;
+  };
+  list.add("top_offset", offsets(&OffsetUse::top),
+           "share of the surface from the commonest source offset; 1 is a moved copy");
+  list.add("top_offset_rolled", offsets(&OffsetUse::topRolled),
+           "the same modulo the example's size; 1 is a tiling or a rolled copy");
+  list.add("offsets_95", offsets(&OffsetUse::offsets95),
+           "how many offsets make 95 % of the surface");
 }
 
 void addSeams(List& list, const Seams& s) {

@@ -15,10 +15,14 @@
 #include "core/loop_progress.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "measure/example_nature.h"
 #include "measure/same_voxels.h"
 
 namespace exemplar {
 namespace {
+
+/// Turned examples of more cells are rolled on a coarser grid first.
+constexpr std::int64_t kTurnedCells = std::int64_t{1} << 18;
 
 std::string text(const Vec3i& size) {
   std::ostringstream out;
@@ -207,12 +211,18 @@ Novelty measureNovelty(const DistanceField& example, const DistanceField& result
   const Occupancy e(example), r(result);
   Novelty novelty;
   if (e.size() == r.size()) novelty.distance = 1 - intersectionOverUnion(e, r);
-  novelty.copyDistance = copyDistance(e, r, {}, progress.part(0, 0.7));
+  novelty.copyDistance = copyDistance(e, r, {}, progress.part(0, 0.3));
+  novelty.rolled = rolledDistance(e, r, {}, progress.part(0.3, 0.5));
+  novelty.turned =
+      rolledDistance(e, r, {.turned = true, .cells = kTurnedCells}, progress.part(0.5, 0.7));
+  if (novelty.rolled.distance < novelty.turned.distance) novelty.turned = novelty.rolled;
+  novelty.rollingIsFair = natureOf(e).fillsEvenly;
   if (!origins) return novelty;
 
   requireOriginsFit(*origins, example, result, exampleIndex);
   novelty.verbatimRun = verbatimRun(*origins, example, progress.part(0.7, 0.9));
-  const SurfaceUse used = surfaceUse(e, *origins, exampleIndex, progress.part(0.9, 1));
+  const SurfaceUse used = surfaceUse(e, *origins, exampleIndex, progress.part(0.9, 0.95));
+  novelty.offsets = offsetUse(r, *origins, e.size(), progress.part(0.95, 1));
   novelty.use = used.use;
   novelty.usedShare = used.usedShare;
   return novelty;

@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/origin.h"
 #include "core/parallel.h"
 #include "core/simd.h"
 
@@ -20,20 +21,11 @@ constexpr std::uint64_t lowBits(int count) {
   return count >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
 }
 
-struct Counts {
-  std::int64_t both = 0, either = 0;
-  Counts& operator+=(const Counts& o) {
-    both += o.both;
-    either += o.either;
-    return *this;
-  }
-};
-
 /// Solid cells of the overlap in both, and in either, of rows z0..z1 of `a`.
 EXEMPLAR_MULTIVERSION
-Counts countOverlap(const Occupancy& a, const Occupancy& b, const Vec3i& shift, const Vec3i& low,
-                    const Vec3i& high, int z0, int z1) {
-  Counts counts;
+Overlap countOverlap(const Occupancy& a, const Occupancy& b, const Vec3i& shift, const Vec3i& low,
+                     const Vec3i& high, int z0, int z1) {
+  Overlap counts;
   for (int z = z0; z < z1; ++z)
     for (int y = low.y; y < high.y; ++y)
       for (int x = low.x; x < high.x; x += 64) {
@@ -46,10 +38,10 @@ Counts countOverlap(const Occupancy& a, const Occupancy& b, const Vec3i& shift, 
   return counts;
 }
 
-Counts overlap(const Occupancy& a, const Occupancy& b, const Vec3i& shift) {
+Overlap overlap(const Occupancy& a, const Occupancy& b, const Vec3i& shift) {
   const Vec3i low = max(Vec3i{0, 0, 0}, shift), high = min(a.size(), b.size() + shift);
   if (low.x >= high.x || low.y >= high.y || low.z >= high.z) return {};
-  return parallelSum<Counts>(low.z, high.z, 16, [&](std::size_t z0, std::size_t z1) {
+  return parallelSum<Overlap>(low.z, high.z, 16, [&](std::size_t z0, std::size_t z1) {
     return countOverlap(a, b, shift, low, high, static_cast<int>(z0), static_cast<int>(z1));
   });
 }
@@ -92,28 +84,36 @@ constexpr std::array<Direction, 13> kDirections{{{{1, 0, 0}, kAxis},
 
 }  // namespace
 
-Occupancy::Occupancy(const DistanceField& field, double depth) : size_(field.size()) {
-  if (field.values.empty()) return;
+template <class IsSolid>
+void Occupancy::fill(const IsSolid& isSolid) {
+  if (volume(size_) == 0) return;
   // A word before, one for bits() to reach into, and one that a window's 64 cells may start in.
   wordsPerRow_ = static_cast<std::size_t>((size_.x + 63) / 64) + 3;
   const std::size_t rows = static_cast<std::size_t>(size_.y + 2 * kMargin) *
                            static_cast<std::size_t>(size_.z + 2 * kMargin);
   words_.resize(rows * wordsPerRow_);
-  const auto level = static_cast<float>(-depth * field.voxelSize);
   solidCells_ = parallelSum<std::int64_t>(0, size_.z, 8, [&](std::size_t z0, std::size_t z1) {
     std::int64_t solid = 0;
     for (int z = static_cast<int>(z0); z < static_cast<int>(z1); ++z)
       for (int y = 0; y < size_.y; ++y) {
         std::uint64_t* words = words_.data() + (row(y, z) - words_.data()) + 1;
-        const float* values = &field.values(0, y, z);
         for (int x = 0; x < size_.x; ++x) {
-          const std::uint64_t bit = values[x] < level ? 1 : 0;
+          const std::uint64_t bit = isSolid(x, y, z) ? 1 : 0;
           words[x >> 6] |= bit << (x & 63);
           solid += static_cast<std::int64_t>(bit);
         }
       }
     return solid;
   });
+}
+
+Occupancy::Occupancy(const DistanceField& field, double depth) : size_(field.size()) {
+  const auto level = static_cast<float>(-depth * field.voxelSize);
+  fill([&](int x, int y, int z) { return field.values(x, y, z) < level; });
+}
+
+Occupancy::Occupancy(const Array3D<std::uint8_t>& cells) : size_(cells.size()) {
+  fill([&](int x, int y, int z) { return cells(x, y, z) != 0; });
 }
 
 double solidFraction(const Occupancy& occupancy) {
@@ -140,13 +140,41 @@ double surfaceDensity(const Occupancy& occupancy) {
 
 double intersectionOverUnion(const Occupancy& a, const Occupancy& b) {
   assert(a.size() == b.size());
-  const Counts counts = overlap(a, b, {0, 0, 0});
-  return counts.either == 0 ? 1 : static_cast<double>(counts.both) / counts.either;
+  const Overlap counts = overlap(a, b, {0, 0, 0});
+  return counts.iou();
 }
 
 double intersectionOverUnion(const Occupancy& a, const Occupancy& b, const Vec3i& shift) {
-  const Counts counts = overlap(a, b, shift);
+  const Overlap counts = overlap(a, b, shift);
   return counts.either == 0 ? 0 : static_cast<double>(counts.both) / counts.either;
+}
+
+Overlap rolledOverlap(const Occupancy& a, const CellBox& window, const Occupancy& b,
+                      const Vec3i& shift) {
+  // Up to two parts along each axis: what came in around the box, and what did not.
+  Overlap sum;
+  for (int part = 0; part < 8; ++part) {
+    Vec3i low = window.begin, high = window.end, by;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int cut = std::min(window.begin[axis] + shift[axis], window.end[axis]);
+      const bool around = (part >> axis & 1) != 0;
+      (around ? high : low)[axis] = cut;
+      by[axis] = window.begin[axis] + shift[axis] - (around ? b.size()[axis] : 0);
+    }
+    if (low.x >= high.x || low.y >= high.y || low.z >= high.z) continue;
+    sum += countOverlap(a, b, by, low, high, low.z, high.z);
+  }
+  return sum;
+}
+
+Occupancy turnedOccupancy(const Occupancy& occupancy, int turns, bool mirrored) {
+  const Vec3i n = occupancy.size();
+  Array3D<std::uint8_t> cells(turnedSize(n, turns));
+  forEachCell(n, [&](const Vec3i& p) {
+    if (!occupancy.solid(p.x, p.y, p.z)) return;
+    cells[turnedCell({mirrored ? n.x - 1 - p.x : p.x, p.y, p.z}, n, turns)] = 1;
+  });
+  return Occupancy(cells);
 }
 
 }  // namespace exemplar

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/vec.h"
 #include "sdf/distance_field.h"
 
@@ -23,6 +24,8 @@ class Occupancy {
   Occupancy() = default;
   /// `depth` > 0 counts only what lies deeper than that below the surface, in voxels.
   explicit Occupancy(const DistanceField& field, double depth = 0);
+  /// Cells that are not 0 are solid.
+  explicit Occupancy(const Array3D<std::uint8_t>& cells);
 
   const Vec3i& size() const { return size_; }
   std::int64_t cells() const { return volume(size_); }
@@ -46,6 +49,9 @@ class Occupancy {
   }
 
  private:
+  template <class IsSolid>
+  void fill(const IsSolid& isSolid);
+
   Vec3i size_{};
   std::size_t wordsPerRow_ = 0;
   std::int64_t solidCells_ = 0;
@@ -72,5 +78,26 @@ double intersectionOverUnion(const Occupancy& a, const Occupancy& b);
 /// The same with `b` moved by `shift` (cell c of `b` falls on cell c + shift of `a`), over the part
 /// of the boxes that overlaps; 0 where there is none, or nothing solid in it.
 double intersectionOverUnion(const Occupancy& a, const Occupancy& b, const Vec3i& shift);
+
+/// Solid cells of two volumes laid over each other.
+struct Overlap {
+  std::int64_t both = 0, either = 0;
+
+  double iou() const { return either == 0 ? 1 : static_cast<double>(both) / either; }
+  Overlap& operator+=(const Overlap& o) {
+    both += o.both;
+    either += o.either;
+    return *this;
+  }
+};
+
+/// The solid of `window`, a box of `a` no larger than `b` along any axis, and that of `b` rolled by
+/// `shift` (each of 0..size - 1): cell c of `b` falls on cell c + shift, modulo the size of `b`, of
+/// the window.
+Overlap rolledOverlap(const Occupancy& a, const CellBox& window, const Occupancy& b,
+                      const Vec3i& shift);
+
+/// The volume turned by quarter turns about z after, where `mirrored`, its x was reversed.
+Occupancy turnedOccupancy(const Occupancy& occupancy, int turns, bool mirrored);
 
 }  // namespace exemplar
