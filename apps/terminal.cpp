@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "engine/result.h"
 #include "engine/words.h"
 
 namespace exemplar {
@@ -138,11 +139,16 @@ void Terminal::noteFile(const std::filesystem::path& path, std::string_view kind
 
 void Terminal::done() { event(dumped({{"event", "done"}})); }
 
-void Terminal::fail(const std::string& text, int status) {
+void Terminal::fail(const std::string& text, int status, const Conflict* conflict) {
   wipe();
   const std::string line = spelledAsOptions(text.substr(0, text.find('\n')));
   if (style_ == ProgressStyle::Json) {
-    event(dumped({{"event", "error"}, {"status", status}, {"text", line}}));
+    Json json{{"event", "error"}, {"status", status}, {"text", line}};
+    if (conflict != nullptr) {
+      json["pins"] = conflict->pins;
+      json["sides"] = conflict->sides;
+    }
+    event(dumped(json));
   } else {
     std::fprintf(stderr, "exemplar: %s\n", line.c_str());
   }
