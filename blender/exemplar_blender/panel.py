@@ -96,7 +96,7 @@ class EXEMPLAR_PT_state(_Tab, bpy.types.Panel):
 
 class EXEMPLAR_PT_extend(_Tab, bpy.types.Panel):
     bl_label = "Extend"
-    bl_order = 1
+    bl_order = 2
 
     def draw(self, context):
         group, layout = context.scene.exemplar.extend, self.columns()
@@ -131,7 +131,7 @@ class EXEMPLAR_PT_control(_Tab, bpy.types.Panel):
 class EXEMPLAR_PT_modules(_Tab, bpy.types.Panel):
     bl_label = "Modules"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = 2
+    bl_order = 4
 
     def draw(self, context):
         group, layout = context.scene.exemplar.modules, self.columns()
@@ -143,7 +143,7 @@ class EXEMPLAR_PT_modules(_Tab, bpy.types.Panel):
 class EXEMPLAR_PT_landscape(_Tab, bpy.types.Panel):
     bl_label = "Landscape"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = 3
+    bl_order = 5
 
     def draw(self, context):
         group, layout = context.scene.exemplar.landscape, self.columns()
@@ -154,7 +154,7 @@ class EXEMPLAR_PT_landscape(_Tab, bpy.types.Panel):
 
 class EXEMPLAR_PT_result(_Tab, bpy.types.Panel):
     bl_label = "Result"
-    bl_order = 4
+    bl_order = 1
 
     @classmethod
     def poll(cls, context):

@@ -27,7 +27,7 @@ class Extend(bpy.types.PropertyGroup):
         ("voting", "Voting", "Overlapping patches, matched and voted"),
         ("blocks", "Blocks", "Best-matching blocks, as published by Lagae, Dumont and Dutré in 2004")])
     scale: FloatVectorProperty(
-        name="Scale", default=(2, 2, 1), min=0.1, soft_max=8, size=3,
+        name="Scale", default=(2, 2, 1), min=0.1, soft_max=8, size=3, subtype="XYZ",
         description="The result's size as a multiple of the example's, in the active object's axes")
     seed: IntProperty(name="Seed", min=0, description="Another seed, another result")
     detail: EnumProperty(name="Detail", default="MEDIUM", items=[
@@ -72,9 +72,9 @@ class Modules(bpy.types.PropertyGroup):
     """Of objects that are placed on a grid."""
     sample: PointerProperty(name="Sample", type=bpy.types.Collection,
                             description="Objects on a grid, of which more is made")
-    cell: FloatVectorProperty(name="Cell", size=3, min=0, unit="LENGTH", description=(
+    cell: FloatVectorProperty(name="Cell", size=3, subtype="XYZ", min=0, unit="LENGTH", description=(
         "Sides of a cell; 0: measured, the least distance of two objects"))
-    size: IntVectorProperty(name="Size", default=(20, 20, 1), min=1, soft_max=200, size=3,
+    size: IntVectorProperty(name="Size", default=(20, 20, 1), min=1, soft_max=200, size=3, subtype="XYZ",
                             description="The result's size in cells")
     sides: EnumProperty(name="Sides", default="example", items=[
         ("example", "As in the Sample", "What is at a side is at that side of the sample"),
