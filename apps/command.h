@@ -5,13 +5,16 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/terminal.h"
 #include "engine/example.h"
+#include "engine/result.h"
 #include "engine/setting.h"
 #include "preview/render.h"
 
@@ -51,7 +54,13 @@ Command addEnginesCommand(CLI::App& app);
 /// Synthesis that could not be completed: exit status 3.
 class Unfinished : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Unfinished(const std::string& why, std::optional<Conflict> conflict = {})
+      : std::runtime_error(why), conflict_(std::move(conflict)) {}
+  /// What excludes each other, where the request is impossible.
+  const std::optional<Conflict>& conflict() const { return conflict_; }
+
+ private:
+  std::optional<Conflict> conflict_;
 };
 
 /// Adds what is common to all commands.

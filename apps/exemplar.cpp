@@ -47,7 +47,8 @@ int run(const exemplar::Command& command) {
   } catch (const exemplar::Cancelled&) {
     return failed(terminal.interruption(), kInterrupted);
   } catch (const exemplar::Unfinished& e) {
-    return failed(e.what(), kUnfinished);
+    terminal.fail(e.what(), kUnfinished, e.conflict() ? &*e.conflict() : nullptr);
+    return kUnfinished;
   } catch (const std::bad_alloc&) {
     return failed("out of memory; use a lower `resolution` or a smaller `scale`", kWrongInput);
   } catch (const std::exception& e) {

@@ -166,7 +166,7 @@ Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& te
   const Progress& progress = terminal.progress();
   Result result = plan.engine->run(examples, plan.request, progress.part(0.15, 0.6));
   if (result.outcome == Outcome::Cancelled) throw Cancelled();
-  if (result.outcome != Outcome::Complete) throw Unfinished(result.why);
+  if (result.outcome != Outcome::Complete) throw Unfinished(result.why, result.conflict);
   if (plan.surface.detail > 1) {
     examples = refined(examples, plan.surface.detail, progress.part(0.6, 0.65));
     result = withDetail(result, examples, plan.surface.detail, progress.part(0.65, 0.7));

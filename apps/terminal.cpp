@@ -13,6 +13,7 @@
 
 #include "apps/command.h"
 #include "core/json_text.h"
+#include "engine/result.h"
 #include "engine/words.h"
 
 namespace exemplar {
@@ -134,11 +135,16 @@ void Terminal::noteFile(const std::filesystem::path& path, std::string_view kind
 
 void Terminal::done() { event(jsonText(Json{{"event", "done"}})); }
 
-void Terminal::fail(const std::string& text, int status) {
+void Terminal::fail(const std::string& text, int status, const Conflict* conflict) {
   wipe();
   const std::string line = spelledAsOptions(text.substr(0, text.find('\n')));
   if (style_ == ProgressStyle::Json) {
-    event(jsonText(Json{{"event", "error"}, {"status", status}, {"text", line}}));
+    Json json{{"event", "error"}, {"status", status}, {"text", line}};
+    if (conflict != nullptr) {
+      json["pins"] = conflict->pins;
+      json["sides"] = conflict->sides;
+    }
+    event(jsonText(json));
   } else {
     std::fprintf(stderr, "exemplar: %s\n", line.c_str());
   }

@@ -15,6 +15,8 @@
 
 namespace exemplar {
 
+struct Conflict;
+
 /// How progress is shown on standard error.
 enum class ProgressStyle {
   Auto,  ///< Line on a terminal; elsewhere each stage is named once, when it first begins
@@ -49,8 +51,9 @@ class Terminal {
   void noteFile(const std::filesystem::path& path, std::string_view kind = "file");
   /// Reports to programs that the command is done.
   void done();
-  /// Says that it failed: one line on standard error.
-  void fail(const std::string& text, int status);
+  /// Says that it failed: one line on standard error; programs hear which pins and sides exclude
+  /// each other.
+  void fail(const std::string& text, int status, const Conflict* conflict = nullptr);
   /// Wipes the progress line.
   void wipe();
 

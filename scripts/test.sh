@@ -3,7 +3,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/install.sh chromium # the report's page is tested in it
+# The report's page is tested in a browser, the add-on in Blender, under a display that is none.
+scripts/install.sh chromium blender xvfb xauth libgl1-mesa-dri python3-numpy
 scripts/build.sh
 echo "== running all tests"
 ctest --preset release -j "$(nproc)"
