@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kColumns = 80;
 constexpr int kNameIndent = 2, kMeaningIndent = 6;
-/// Groups that begin so are told by their number of options, unless all is asked for.
+/// Groups that begin so are only counted, unless all is asked for.
 constexpr std::string_view kEngine = "Engine ";
 
 bool isCollapsed(const std::string& group, CLI::AppFormatMode mode) {

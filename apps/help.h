@@ -11,7 +11,7 @@
 namespace exemplar {
 
 /// Help that fits 80 columns: each option on a line of its own, what it means below, in groups.
-/// `--help` tells how many options each engine has; `--help-all` lists them.
+/// `--help` counts the options of each engine; `--help-all` lists them.
 class HelpFormatter : public CLI::Formatter {
  public:
   HelpFormatter();

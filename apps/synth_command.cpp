@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -32,9 +33,23 @@ namespace {
 struct Options {
   std::vector<std::string> examples, with, outputs;
   std::string engine, preview, stats, origins, report, layers;
+  int results = 1;
   Settings settings;
   PictureOptions picture;
 };
+
+/// The options with the files that one of several results goes to: `o.glb` is `o_000.glb`,
+/// `o_001.glb` and so on.
+Options numbered(const Options& options, int result) {
+  Options own = options;
+  if (options.results == 1) return own;
+  char number[16];
+  std::snprintf(number, sizeof number, "%03d", result);
+  for (std::string& output : own.outputs) output = channelPath(output, number).string();
+  for (std::string* file : {&own.preview, &own.stats, &own.origins, &own.report, &own.layers})
+    if (!file->empty()) *file = channelPath(*file, number).string();
+  return own;
+}
 
 /// What the command line asks for, checked before any file is read.
 struct Plan {
@@ -80,17 +95,21 @@ void checkOutputs(const Options& options, Form form, int lods) {
   inputs.insert(inputs.end(), options.with.begin(), options.with.end());
   for (const char* key : {"keep", "guide", "mask", "layers-from", "paint"})
     if (options.settings.has(key)) inputs.emplace_back(options.settings.text(key));
-  Paths files = filesOf(options.outputs, lods);
-  if (form == Form::Map) {
-    for (const auto& [name, file] : readingOf(options.settings, form).channels) {
-      inputs.emplace_back(file);
-      for (const std::string& output : options.outputs) files.push_back(channelPath(output, name));
-    }
+  std::vector<std::pair<std::string, std::string>> channels;
+  if (form == Form::Map) channels = readingOf(options.settings, form).channels;
+  for (const auto& [name, file] : channels) inputs.emplace_back(file);
+  Paths files;
+  for (int result = 0; result < options.results; ++result) {
+    const Options own = numbered(options, result);
+    const Paths outputs = filesOf(own.outputs, lods);
+    files.insert(files.end(), outputs.begin(), outputs.end());
+    for (const auto& [name, file] : channels)
+      for (const std::string& output : own.outputs) files.push_back(channelPath(output, name));
+    for (const std::string* file :
+         {&own.preview, &own.stats, &own.origins, &own.report, &own.layers})
+      if (!file->empty()) files.emplace_back(*file);
+    if (!own.layers.empty()) files.push_back(exampleLayersPath(own.layers));
   }
-  for (const std::string* file :
-       {&options.preview, &options.stats, &options.origins, &options.report, &options.layers})
-    if (!file->empty()) files.emplace_back(*file);
-  if (!options.layers.empty()) files.push_back(exampleLayersPath(options.layers));
   requireDistinct(files, inputs);
 }
 
@@ -162,8 +181,8 @@ std::vector<Example> read(const Options& options, const Plan& plan, Terminal& te
 }
 
 /// A complete result; with `detail`, of `examples` that are sampled more finely, too.
-Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& terminal) {
-  const Progress& progress = terminal.progress();
+Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& terminal,
+                  const Progress& progress) {
   Result result = plan.engine->run(examples, plan.request, progress.part(0.15, 0.6));
   if (result.outcome == Outcome::Cancelled) throw Cancelled();
   if (result.outcome != Outcome::Complete) throw Unfinished(result.why, result.conflict);
@@ -227,7 +246,7 @@ Vec3d scaleOf(const Plan& plan, const Result& result, std::span<const Example> e
 }
 
 void writeStats(const Options& options, const Result& result, const std::optional<Surface>& surface,
-                const Times& times, const Terminal& terminal) {
+                const Times& times, const Terminal& terminal, const Progress& progress) {
   Json stats = {{"example", options.examples.front()},
                 {"output", options.outputs.front()},
                 {"outputs", options.outputs},
@@ -237,8 +256,8 @@ void writeStats(const Options& options, const Result& result, const std::optiona
   stats.update(toJson(result.statistics));
   if (surface) stats["mesh"] = toJson(surface->health);
   if (result.layers) {
-    stats.update(toJson(figures(measureLayers(*result.exampleLayers, false, *result.layers,
-                                              terminal.progress().part(0.95, 1)))));
+    stats.update(
+        toJson(figures(measureLayers(*result.exampleLayers, false, *result.layers, progress))));
   }
   stats["warnings"] = terminal.warnings();
   const double total = times.total.seconds();
@@ -253,8 +272,7 @@ void writeStats(const Options& options, const Result& result, const std::optiona
 /// The result first; what goes with it must not cost it.
 void write(const Options& options, Plan plan, std::span<const Example> examples,
            const Result& result, const std::optional<Surface>& surface, const Times& times,
-           Terminal& terminal) {
-  const Progress& progress = terminal.progress();
+           Terminal& terminal, const Progress& progress) {
   plan.output.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path, "frame"); };
   const auto say = [&](const Written& written) {
     if (result.laterFrames.empty() || lowerExtension(written.path) == ".gif") {
@@ -300,9 +318,27 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
   }
   for (const std::string& warning : *plan.picture.warnings) terminal.warn(warning);
   if (!options.stats.empty()) {
-    writeStats(options, result, surface, times, terminal);
+    writeStats(options, result, surface, times, terminal, progress.part(0.95, 1));
     terminal.wrote("stats", options.stats, options.stats);
   }
+}
+
+/// One result of examples that were read: synthesize, realize, write. `progress` counts from 0.15.
+void makeResult(const Options& options, const Plan& plan, std::vector<Example>& examples,
+                Times times, Terminal& terminal, const Progress& progress) {
+  const double before = times.total.seconds();
+  const Result result = synthesize(plan, examples, terminal, progress);
+  times.synthesis = times.total.seconds() - before;
+  terminal.say("result", readableExtent(result) + " in " + readableSeconds(times.synthesis) +
+                             ", seed " + std::to_string(result.seed));
+
+  const std::optional<Surface> surface =
+      surfaceFor(options, plan, result, examples, progress.part(0.7, 0.85));
+  if (surface && surface->contoured > surface->health.triangles) {
+    terminal.say("simplified", withThousands(surface->contoured) + " triangles to " +
+                                   withThousands(surface->health.triangles));
+  }
+  write(options, plan, examples, result, surface, times, terminal, progress);
 }
 
 /// The main path, from file to file.
@@ -315,18 +351,16 @@ void synth(const Options& options, Terminal& terminal) {
   std::vector<Example> examples = read(options, plan, terminal);
   times.read = times.total.seconds();
 
-  const Result result = synthesize(plan, examples, terminal);
-  times.synthesis = times.total.seconds() - times.read;
-  terminal.say("result", readableExtent(result) + " in " + readableSeconds(times.synthesis) +
-                             ", seed " + std::to_string(result.seed));
-
-  const std::optional<Surface> surface =
-      surfaceFor(options, plan, result, examples, terminal.progress().part(0.7, 0.85));
-  if (surface && surface->contoured > surface->health.triangles) {
-    terminal.say("simplified", withThousands(surface->contoured) + " triangles to " +
-                                   withThousands(surface->health.triangles));
+  const int count = options.results;
+  for (int n = 0; n < count; ++n) {
+    // What comes after reading, 0.15 to 1, is each result's share of it.
+    const double end = 0.15 + 0.85 * (n + 1) / count;
+    const Progress progress = terminal.progress().part(end - 1.0 / count, end);
+    std::vector<Example> own;  // detail refines them
+    if (count > 1 && plan.surface.detail > 1) own = examples;
+    makeResult(numbered(options, n), plan, own.empty() ? examples : own, times, terminal, progress);
+    ++plan.request.seed;
   }
-  write(options, plan, examples, result, surface, times, terminal);
 
   terminal.say("done", readableSeconds(times.total.seconds()) + ", " +
                            readableBytes(static_cast<double>(peakResidentBytes())) +
@@ -372,6 +406,12 @@ Command addSynthCommand(CLI::App& app) {
                        outputEndings(Form::Map))
       ->required()
       ->allow_extra_args(false);
+  command
+      ->add_option("-n,--results", options->results,
+                   "how many results, each of the next seed; their files are numbered: o_000.glb, "
+                   "o_001.glb, ... (1)")
+      ->check(CLI::Range(1, 1000))
+      ->option_text("N");
   std::string names;
   for (const Engine* engine : engines()) names += "|" + std::string(engine->name());
   command

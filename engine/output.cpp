@@ -117,6 +117,9 @@ Written writeField(const fs::path& path, const Result& result, const Example& ex
 }
 
 /// Triangles as a file of meshes.
+/// More than engines and editors take gladly.
+constexpr std::size_t kManyTriangles = 500'000;
+
 Written writeTriangles(const fs::path& path, const TriangleMesh& mesh,
                        std::span<const std::uint32_t> faces, const MeshHealth& health,
                        const char* label, const MeshFileOptions& options,
@@ -125,6 +128,10 @@ Written writeTriangles(const fs::path& path, const TriangleMesh& mesh,
   MeshFileOptions file = options;
   file.warnings = &written.warnings;
   writePolygons(path, mesh, faces, file, progress);
+  std::error_code error;
+  const auto bytes = fs::file_size(path, error);
+  if (!error) written.text += ", " + readableBytes(static_cast<double>(bytes));
+  if (mesh.triangles.size() > kManyTriangles) written.text += "; `triangles` makes it lighter";
   return written;
 }
 

@@ -29,6 +29,25 @@ std::string scene(const std::string& name) {
   return std::string(EXEMPLAR_SOURCE_DIR) + "/scenes/" + name + ".toml";
 }
 
+// Several results of one reading, and each is what its seed makes alone.
+TEST(SynthCommand, MakesSeveralResultsOfOneExample) {
+  const TestFolder folder;
+  const std::string common = "synth " + scene("chainmail") + kQuick + "--scale 1.5,1.5,1 ";
+  const auto run =
+      runExemplar(common + "-n 3 --seed 4 -o m.vdb -o m.stl --stats s.json", folder.path());
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(folder.files(),
+            "m_000.stl m_000.vdb m_001.stl m_001.vdb m_002.stl m_002.vdb s_000.json s_001.json "
+            "s_002.json");
+  ASSERT_EQ(runExemplar(common + "--seed 5 -o one.vdb", folder.path()).status, 0);
+  EXPECT_EQ(readFile(folder / "m_001.vdb"), readFile(folder / "one.vdb"));
+  EXPECT_NE(readFile(folder / "m_000.vdb"), readFile(folder / "one.vdb"));
+
+  const auto input = runExemplar("synth m_001.vdb -n 2 -o m.vdb", folder.path());
+  EXPECT_EQ(input.status, 2);
+  EXPECT_THAT(input.err, testing::HasSubstr("m_001.vdb: is read or written already"));
+}
+
 TEST(SynthCommand, WritesASoundMeshAPictureAndFigures) {
   const TestFolder folder;
   const auto result =
