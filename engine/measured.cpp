@@ -78,7 +78,8 @@ TerrainLikeness measureTerrain(const Source& example, const Source& result,
   const std::vector<HeightMap> maps =
       readHeightsAlike(both, reading, warnings, progress.part(0, 0.2));
   const double wanted = maps[0].cellSize, made = maps[1].cellSize;
-  if (std::abs(made - wanted) > 1e-6 * wanted) {
+  // A volume's samples divide the length that the points of its example span.
+  if (std::abs(made - wanted) > 0.02 * wanted) {
     throw InputError(result.name() + " has cells of " + numberText(made) + ", and " +
                      example.name() + " of " + numberText(wanted) +
                      "; terrain is measured at one resolution: resample one of them");
