@@ -245,8 +245,9 @@ Vec3d scaleOf(const Plan& plan, const Result& result, std::span<const Example> e
   return scale;
 }
 
-void writeStats(const Options& options, const Result& result, const std::optional<Surface>& surface,
-                const Times& times, const Terminal& terminal, const Progress& progress) {
+void writeStats(const Options& options, std::span<const Example> examples, const Result& result,
+                const std::optional<Surface>& surface, const Times& times, const Terminal& terminal,
+                const Progress& progress) {
   Json stats = {{"example", options.examples.front()},
                 {"output", options.outputs.front()},
                 {"outputs", options.outputs},
@@ -259,6 +260,8 @@ void writeStats(const Options& options, const Result& result, const std::optiona
     stats.update(
         toJson(figures(measureLayers(*result.exampleLayers, false, *result.layers, progress))));
   }
+  if (const auto terrain = measureTerrain(result, examples, progress))
+    stats.update(toJson(figures(*terrain)));
   stats["warnings"] = terminal.warnings();
   const double total = times.total.seconds();
   stats["seconds"] = {{"read", times.read},
@@ -318,7 +321,7 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
   }
   for (const std::string& warning : *plan.picture.warnings) terminal.warn(warning);
   if (!options.stats.empty()) {
-    writeStats(options, result, surface, times, terminal, progress.part(0.95, 1));
+    writeStats(options, examples, result, surface, times, terminal, progress.part(0.95, 1));
     terminal.wrote("stats", options.stats, options.stats);
   }
 }

@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
+#include "maps/height_map_file.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
 #include "mesh/scene.h"
-#include "sdf/height_map.h"
 #include "sdf/vdb_file.h"
 #include "tests/apps/run_command.h"
 
@@ -99,7 +99,7 @@ TEST(SynthCommand, AFieldAndItsOriginsAgree) {
 
 TEST(SynthCommand, AHeightMapGivesAHeightMapOrAMesh) {
   const TestFolder folder;
-  HeightMap map{48, 48, std::vector<float>(48 * 48), 1};
+  HeightMap map{Grid<float>(48, 48), 1};
   for (int n = 0; n < 48 * 48; ++n)
     map.heights[n] = static_cast<float>(100 + (n % 48 * 7 + n / 48 * 5) % 90);
   writeHeightMap(folder / "e.pgm", map, {.heightScale = 1});
@@ -108,7 +108,7 @@ TEST(SynthCommand, AHeightMapGivesAHeightMapOrAMesh) {
           .status,
       0);
   const HeightMap result = readHeightMap(folder / "o.png");
-  EXPECT_GT(result.width, 32);
+  EXPECT_GT(result.width(), 32);
   ASSERT_EQ(
       runExemplar(std::string("synth e.pgm --cell-size 10") + kQuick + "-o o.obj", folder.path())
           .status,
