@@ -4,7 +4,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 # The report's page is tested in a browser, the add-on in Blender, under a display that is none.
-scripts/install.sh chromium blender xvfb xauth libgl1-mesa-dri python3-numpy
+scripts/install.sh chromium blender xvfb xauth libgl1-mesa-dri python3-numpy \
+  python3-dev pybind11-dev python3-openvdb
 scripts/build.sh
 echo "== running all tests"
 ctest --preset release -j "$(nproc)"

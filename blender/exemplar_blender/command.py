@@ -3,6 +3,7 @@
 
 """Where the `exemplar` command is, and whether it can be talked to. Knows nothing of Blender."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -37,12 +38,24 @@ def _runs(path):
 
 def version(path):
     """The command's version, as "0.1.0"; an empty text where it does not answer within 5 s."""
+    return _said(path, "--version").strip()
+
+
+def engines(path):
+    """The names of the command's engines."""
     try:
-        done = subprocess.run([path, "--version"], stdin=subprocess.DEVNULL, capture_output=True,
-                              timeout=5, check=False, **hidden_window())
+        return {engine["name"] for engine in json.loads(_said(path, "engines", "--json"))}
+    except (ValueError, KeyError, TypeError):
+        return set()
+
+
+def _said(*line):
+    try:
+        done = subprocess.run(line, stdin=subprocess.DEVNULL, capture_output=True, timeout=5,
+                              check=False, **hidden_window())
     except (OSError, subprocess.TimeoutExpired):
         return ""
-    return done.stdout.decode("utf-8", "replace").strip() if done.returncode == 0 else ""
+    return done.stdout.decode("utf-8", "replace") if done.returncode == 0 else ""
 
 
 def hidden_window():

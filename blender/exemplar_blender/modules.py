@@ -186,8 +186,11 @@ class EXEMPLAR_OT_landscape(run.Run, bpy.types.Operator):
         points = points.reshape(-1, 3) @ local[:3, :3].T + local[:3, 3]
         heights, side, self.corner = grid.height_grid(points)
         grid.write_asc(self.file("in.asc"), heights, side)
-        return ["synth", "in.asc", "-o", "out.asc", "--seed", self.values["seed"], "--resolution",
-                max(heights.shape), "--scale", "{:.6g},{:.6g},1".format(*self.values["scale"])]
+        engine = ["--engine", "terrain"]
+        if "terrain" not in settings.command.engines(settings.found_command()[0]):
+            engine = ["--engine", "geometry", "--resolution", max(heights.shape)]
+        return ["synth", "in.asc", "-o", "out.asc", "--seed", self.values["seed"], "--scale",
+                "{:.6g},{:.6g},1".format(*self.values["scale"])] + engine
 
     def take(self, context):
         heights, side = grid.read_asc(self.file("out.asc"))

@@ -141,6 +141,7 @@ class TheCommand(Folder):
         self.assertEqual(command.find(COMMAND), COMMAND)
         self.assertEqual(command.find(os.path.dirname(COMMAND)), COMMAND)
         self.assertRegex(command.version(COMMAND), r"^\d+\.\d+\.\d+")
+        self.assertIn("geometry", command.engines(COMMAND))
 
     def test_is_nothing_else(self):
         self.assertEqual(command.find(self.path("nowhere")), "")

@@ -1,0 +1,123 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "python/shared.h"
+
+#include <pybind11/stl.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "core/error.h"
+
+namespace exemplar::python {
+namespace {
+
+/// How often the caller's thread looks up.
+constexpr std::chrono::milliseconds kWake{50};
+
+}  // namespace
+
+void runUnlocked(const Waiting& waiting, const std::function<void(const Progress&)>& work) {
+  std::atomic<bool> cancel{false};
+  ProgressMeter meter;
+  std::mutex mutex;
+  std::condition_variable ended;
+  bool done = false;
+  std::exception_ptr failure;
+  const int threads = waiting.threads;
+  const auto run = [&] {
+    const Progress progress(
+        [&](std::string_view stage, double fraction) { meter.report(stage, fraction); }, &cancel);
+    try {
+      if (threads > 0) {
+        tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
+        arena.execute([&] { work(progress); });
+      } else {
+        work(progress);
+      }
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    done = true;
+    ended.notify_one();
+  };
+
+  std::exception_ptr raised;  // by Python, while waiting
+  {
+    const py::gil_scoped_release unlocked;
+    std::thread thread(run);
+    std::unique_lock lock(mutex);
+    while (!ended.wait_for(lock, kWake, [&] { return done; })) {
+      if (cancel.load()) continue;
+      lock.unlock();
+      {
+        const py::gil_scoped_acquire locked;
+        try {
+          if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+          const ProgressState state = meter.state();
+          if (!waiting.progress.is_none() && !state.stage.empty()) {
+            const py::object answer = waiting.progress(state.stage, state.fraction);
+            if (answer.is(py::bool_(false))) cancel.store(true);
+          }
+        } catch (...) {
+          raised = std::current_exception();
+          cancel.store(true);
+        }
+      }
+      lock.lock();
+    }
+    lock.unlock();
+    thread.join();
+  }
+  if (raised) std::rethrow_exception(raised);
+  if (failure) std::rethrow_exception(failure);
+}
+
+Vec3d vectorOf(const std::vector<double>& values, const std::string& name) {
+  if (values.size() != 3) throw InputError(name + ": three numbers are wanted");
+  return {values[0], values[1], values[2]};
+}
+
+Settings settingsOf(const Given& given) {
+  Settings settings;
+  for (const auto& [key, text] : given) settings.add(key, text);
+  return settings;
+}
+
+std::string spelledAsKeywords(const std::string& message) {
+  return spelled(message, [](std::string_view key) {
+    std::string keyword(key);
+    for (char& c : keyword)
+      if (c == '-') c = '_';
+    return "`" + keyword + "`";
+  });
+}
+
+}  // namespace exemplar::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace exemplar::python;
+  module.attr("__version__") = EXEMPLAR_VERSION;
+  static py::exception<exemplar::InputError> inputError(module, "InputError", PyExc_ValueError);
+  static py::exception<exemplar::Cancelled> cancelled(module, "Cancelled");
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const exemplar::InputError& e) {
+      inputError(spelledAsKeywords(e.what()).c_str());
+    } catch (const exemplar::Cancelled& e) {
+      cancelled(e.what());
+    }
+  });
+  addGeometry(module);
+  addEngine(module);
+}
