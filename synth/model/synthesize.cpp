@@ -128,10 +128,10 @@ std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& exa
 /// How a result is annealed that windows of a smaller one have been laid in: only joints are left,
 /// the fewer moves for each column the more columns there are.
 AnnealSchedule quiltedSchedule(const ModelOptions& options) {
-  constexpr double kColumns = 10'000, kShare = 0.25, kLeastShare = 0.05;
+  constexpr double kColumns = 10'000, kShare = 0.25, kLeastShare = 0.02;
   const double columns = double(options.size.x) * options.size.y;
   const double share = std::max(kShare * std::sqrt(kColumns / columns), kLeastShare);
-  return {.moves = options.moves * share, .hot = 4, .looks = 32, .shift = 16};
+  return {.moves = options.moves * share, .hot = 4, .looks = 16, .shift = 16};
 }
 
 /// Brings a labeling to what the example holds.
