@@ -37,6 +37,8 @@ enum Name : std::uint32_t {
   kPatchMoves = 0x4C424C34,   ///< which patch of the example goes where
   kPatchRims = 0x4C424C36,    ///< which labels close the gap around a patch
   kPatchPlaces = 0x4C424C35,  ///< where patches go that are tried at once
+  kQuiltPlaces = 0x4C424C37,  ///< where windows of a smaller result come from
+  kQuiltRims = 0x4C424C38,    ///< which labels close the gaps around them
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,

@@ -298,7 +298,8 @@ const SettingTable<ModelSettings>& modelSettings() {
           "moves", [](O & o) -> auto& { return o.options.moves; },
           "patches of the example that are tried in each column of the result once it is labeled; "
           "one is kept if blocks of 1, 2 and 3 cells a side then occur more nearly as often as in "
-          "the example; 0: none",
+          "the example; fewer where a result of more than 12,000 columns is made of windows of a "
+          "smaller one; 0: none",
           {0, 10000}),
       settingRow<O>(
           "copy-price", [](O & o) -> auto& { return o.options.copyPrice; },

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -183,16 +184,24 @@ std::vector<double> labelShares(std::span<const Measured> grids, int labelCount)
   return shares;
 }
 
-/// The built share of each layer, the grids together.
-std::vector<double> builtByLayer(std::span<const Measured> grids) {
+/// The built share of each layer, the grids together; with `inside` of the columns that no
+/// vertical side touches.
+std::vector<double> builtByLayer(std::span<const Measured> grids, bool inside) {
   std::vector<double> built, columns;
   for (const Measured& m : grids) {
     const Vec3i n = m.size();
     const auto layers = static_cast<std::size_t>(n.z);
     built.resize(std::max(built.size(), layers));
     columns.resize(built.size());
-    for (std::size_t z = 0; z < layers; ++z) columns[z] += static_cast<double>(n.x) * n.y;
-    forEachCell(n, [&](const Vec3i& p) { built[p.z] += m.built[p]; });
+    CellBox box = CellBox::of(n);
+    for (int axis = 0; axis < 2 && inside; ++axis) {
+      if (n[axis] < 3) continue;
+      ++box.begin[axis];
+      --box.end[axis];
+    }
+    const Vec3i size = box.size();
+    for (std::size_t z = 0; z < layers; ++z) columns[z] += static_cast<double>(size.x) * size.y;
+    forEachCell(box, [&](const Vec3i& p) { built[p.z] += m.built[p]; });
   }
   for (std::size_t z = 0; z < built.size(); ++z) built[z] /= columns[z];
   return built;
@@ -202,13 +211,6 @@ double columnsOf(std::span<const Measured> grids) {
   double columns = 0;
   for (const Measured& m : grids) columns += static_cast<double>(m.size().x) * m.size().y;
   return columns;
-}
-
-double builtOf(std::span<const Measured> grids) {
-  double built = 0;
-  for (const Measured& m : grids)
-    for (const std::uint8_t b : m.built.values()) built += b;
-  return built;
 }
 
 /// The sizes of objects in cells, ascending.
@@ -364,20 +366,42 @@ void measureLabels(std::span<const Measured> examples, const Measured& result, C
   content.labelsUsed = static_cast<double>(used) / shown;
 }
 
-void measureDensity(std::span<const Measured> examples, const Measured& result, Content& content) {
-  const double built = builtOf(examples) / columnsOf(examples);
-  if (!(built > 0)) return;
-  content.density = builtOf({&result, 1}) / columnsOf({&result, 1}) / built;
-  std::vector<double> wanted = builtByLayer(examples), layers = builtByLayer({&result, 1});
+/// How much is built in each column, and how far that differs by height.
+std::pair<std::optional<double>, std::optional<double>> densityAndLayers(
+    std::span<const Measured> examples, const Measured& result, bool inside) {
+  std::vector<double> wanted = builtByLayer(examples, inside);
+  std::vector<double> layers = builtByLayer({&result, 1}, inside);
   const std::size_t count = std::max(wanted.size(), layers.size());
   wanted.resize(count);
   layers.resize(count);
-  double difference = 0, all = 0;
+  double difference = 0, all = 0, made = 0;
   for (std::size_t z = 0; z < count; ++z) {
     difference += std::abs(layers[z] - wanted[z]);
     all += wanted[z];
+    made += layers[z];
   }
-  content.layers = difference / all;
+  if (!(all > 0)) return {};
+  return {made / all, difference / all};
+}
+
+/// Columns of the result x cells of the examples up to which all offsets are compared.
+constexpr double kMostCompared = 3e8;
+
+std::optional<NearCopies> nearCopiesOf(std::span<const Measured> examples, const Measured& result,
+                                       const Progress& progress) {
+  const auto builtLabels = [](const Measured& m) {
+    BuiltLabels labels(m.size(), kNotBuilt);
+    forEachCell(m.size(), [&](const Vec3i& p) {
+      if (m.built[p]) labels[p] = m.grid->cells[p];
+    });
+    return labels;
+  };
+  double cells = 0;
+  for (const Measured& m : examples) cells += static_cast<double>(m.built.count());
+  if (cells * columnsOf({&result, 1}) > kMostCompared) return std::nullopt;
+  std::vector<BuiltLabels> wanted;
+  for (const Measured& m : examples) wanted.push_back(builtLabels(m));
+  return findNearCopies(wanted, builtLabels(result), progress);
 }
 
 }  // namespace
@@ -400,7 +424,8 @@ Content measureContent(Grids examples, const LabelGrid& result, const Progress& 
 
   Content content;
   measureLabels(wanted, made, content);
-  measureDensity(wanted, made, content);
+  std::tie(content.density, content.layers) = densityAndLayers(wanted, made, false);
+  std::tie(content.densityInside, content.layersInside) = densityAndLayers(wanted, made, true);
   measureBlocks(wanted, made, background, progress.part(0.1, 0.6), content);
   progress.report("measuring what labels hold", 0.6);
   const int lowest = content.objectsFrom = layerOfObjects(wanted, progress);
@@ -415,6 +440,7 @@ Content measureContent(Grids examples, const LabelGrid& result, const Progress& 
   }
   progress.report("measuring what labels hold", 0.8);
   content.copied = copiedShare(wanted, made, progress);
+  content.nearCopies = nearCopiesOf(wanted, made, progress);
   return content;
 }
 

@@ -176,6 +176,8 @@ std::vector<Figure> figures(const Content& c) {
   list.add("label_shares", c.labelShares, "distance of the labels' shares, 0..1; 0 is best");
   list.add("density", c.density, "built cells per column over the example's; 1 is best");
   list.add("layers", c.layers, "difference of what is built at each height; 0 is best");
+  list.add("density_inside", c.densityInside, "of the columns that no vertical side touches");
+  list.add("layers_inside", c.layersInside, "of the columns that no vertical side touches");
   list.add("objects", c.objects, "objects for each 100 columns");
   list.add("objects_example", c.exampleObjects, "objects for each 100 columns of the example");
   list.add("objects_from", std::int64_t{c.objectsFrom}, "the layer from which up they are counted");
@@ -191,6 +193,13 @@ std::vector<Figure> figures(const Content& c) {
   list.add("js3_halves", c.halvesDivergence[2], "between two halves of the example");
   list.add("in3", c.known, "blocks of 3 cells a side that the example shows; 1 for copies");
   list.add("copy8", c.copied, "windows of 8 x 8 columns verbatim in the example; 0 is new");
+  std::optional<double> near, largest;
+  if (c.nearCopies) {
+    near = c.nearCopies->windows;
+    largest = c.nearCopies->largest;
+  }
+  list.add("near8", near, "windows that agree with the example's but for 5 %; 0 is new");
+  list.add("largest_copy", largest, "largest area of these, of the example's; 1 is all of it");
   return std::move(list.figures);
 }
 

@@ -103,6 +103,10 @@ const kFigures = {
   'content.js3_halves': { label: 'Divergence of 3³ blocks, halves', unit: 'bits', from: 0, to: 1 },
   'content.in3': { label: 'Known 3³ blocks', from: 0, to: 1 },
   'content.copy8': { label: 'Verbatim windows', best: 0, from: 0, to: 1 },
+  'content.density_inside': { label: 'Built cells inside', unit: '× example', best: 1, from: 0.5, to: 1.5 },
+  'content.layers_inside': { label: 'Difference by height inside', best: 0, from: 0 },
+  'content.near8': { label: 'Nearly verbatim windows', best: 0, from: 0, to: 1 },
+  'content.largest_copy': { label: 'Largest copied area', unit: '× example', best: 0, from: 0, to: 1 },
 };
 /// The figures that are shown first.
 const kMain = [

@@ -21,13 +21,17 @@ namespace exemplar {
 namespace {
 
 /// Columns around a move's center that may change, and how far the center may be shifted.
-constexpr int kReach = 18, kShift = 3;
+constexpr int kReach = 18;
 /// How long cores are at most, in columns: first, and at last; and how wide.
 constexpr int kLongest = 14, kLongestAtLast = 6, kWidest = 8;
 /// How long they are at least, first: small patches alone would not begin anything large.
 constexpr int kShortest = 7;
 /// How far implications are followed at most, and how wide a rim is, in cells.
 constexpr int kGrow = 14, kRim = 3;
+/// Cells beyond the core that implications may come to; one move in so many may go on to any
+/// number: nearly all that are kept have come to fewer, and nearly all that come to more end in
+/// conflicts.
+constexpr int kImplied = 160, kFar = 4;
 /// Conflicts that a patch may have for each column along its border, at last; few at first: what
 /// comes whole is to come before what must be mended.
 constexpr double kConflicts = 1.6;
@@ -35,10 +39,6 @@ constexpr double kConflicts = 1.6;
 constexpr double kAgreement = 0.75;
 /// One core in so many has a part of the height only.
 constexpr int kLow = 4;
-/// Columns looked at to find one where the example is not met.
-constexpr int kLooks = 4;
-/// The temperature at first, in blocks; at last it is 0.
-constexpr double kHot = 20;
 /// How much worse a patch may seem while its rim is open.
 constexpr double kSlack = 100;
 /// Blocks that a label is worth where a map makes it e times as probable.
@@ -48,7 +48,7 @@ class PatchAnnealing {
  public:
   PatchAnnealing(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                  std::span<const LabelGrid> examples, std::vector<Label>& labels,
-                 const Progress& progress);
+                 const AnnealSchedule& schedule, const Progress& progress);
   void run(ModelStatistics& statistics);
 
  private:
@@ -72,6 +72,7 @@ class PatchAnnealing {
 
   const ModelProblem& problem_;
   const ModelOptions& options_;
+  const AnnealSchedule schedule_;
   std::vector<PatchSource> sources_;
   BlockCounts counts_;
   CopiedWindows copies_;
@@ -88,13 +89,15 @@ class PatchAnnealing {
 
 PatchAnnealing::PatchAnnealing(const ModelProblem& problem, const LabelSets& base,
                                const LabelChooser& chooser, std::span<const LabelGrid> examples,
-                               std::vector<Label>& labels, const Progress& progress)
+                               std::vector<Label>& labels, const AnnealSchedule& schedule,
+                               const Progress& progress)
     : problem_(problem),
       options_(problem.options()),
+      schedule_(schedule),
       sources_(patchSources(problem, examples, progress)),
       counts_(problem, sources_, progress),
       copies_(problem, sources_),
-      alignments_(problem, sources_, counts_),
+      alignments_(problem, sources_, &counts_),
       labels_(labels),
       progress_(progress),
       moves_([this, &problem, &base, &chooser] {
@@ -128,7 +131,7 @@ std::vector<Vec3i> PatchAnnealing::centers(Draws& draws) const {
   int apart = 3;
   for (const CellOffset& o : problem_.offsets())
     apart = std::max({apart, std::abs(o.x) + 1, std::abs(o.y) + 1});
-  const int pitch = 2 * (kReach + kShift) + apart;
+  const int pitch = 2 * (kReach + schedule_.shift) + apart;
   std::array<std::vector<int>, 2> along;
   for (int axis = 0; axis < 2; ++axis) {
     const int n = options_.size[axis];
@@ -152,8 +155,9 @@ std::vector<Vec3i> PatchAnnealing::centers(Draws& draws) const {
 Vec3i PatchAnnealing::worst(Draws& draws, const Vec3i& place) const {
   Vec3i best = place;
   double most = 0;
-  for (int i = 0; i < kLooks; ++i) {
-    Vec3i p{place.x + draws.between(-kShift, kShift), place.y + draws.between(-kShift, kShift),
+  for (int i = 0; i < schedule_.looks; ++i) {
+    Vec3i p{place.x + draws.between(-schedule_.shift, schedule_.shift),
+            place.y + draws.between(-schedule_.shift, schedule_.shift),
             draws.below(options_.size.z)};
     bool inside = true;
     for (int axis = 0; axis < 2; ++axis) {
@@ -196,6 +200,7 @@ void PatchAnnealing::propose(Proposal& proposal, std::uint64_t number, const Vec
   const Vec3i grown = min(patch.core.size() + Vec3i{8, 8, 0}, patch.grown.size());
   patch.mostConflicts = 2 + static_cast<int>(kConflicts * 2 * (grown.x + grown.y) * done_);
   patch.rim = draws.between(1, kRim);
+  if (draws.below(kFar) > 0) patch.mostImplied = kImplied;
   proposal.threshold = -temperature_ * std::log(1 - draws.uniform());
   proposal.outcome = PatchMove::Outcome::Nothing;
   const auto alignment = alignments_.find(draws, window, patch.core, grid_, kAgreement * done_);
@@ -279,14 +284,14 @@ void PatchAnnealing::run(ModelStatistics& statistics) {
   counts_.count(grid_, progress_);
   copies_.count(grid_, progress_);
   const double columns = double(options_.size.x) * options_.size.y;
-  const auto total = static_cast<std::uint64_t>(columns * options_.moves);
+  const auto total = static_cast<std::uint64_t>(columns * schedule_.moves);
   const Random places(options_.seed, stream::kPatchPlaces);
   std::vector<Proposal> proposals;
   std::uint64_t number = 0;
   for (std::uint64_t batch = 0; number < total; ++batch) {
     done_ = double(number) / double(total);
     progress_.report("matching the example's statistics", done_);
-    temperature_ = kHot * (1 - done_);
+    temperature_ = schedule_.hot * (1 - done_);
     Draws draws(places, batch);
     const std::vector<Vec3i> at = centers(draws);
     if (proposals.size() < at.size()) proposals.resize(at.size());
@@ -299,6 +304,7 @@ void PatchAnnealing::run(ModelStatistics& statistics) {
         ++statistics.movesKept;
     }
   }
+
   statistics.moves = static_cast<std::int64_t>(number);
 }
 
@@ -306,8 +312,9 @@ void PatchAnnealing::run(ModelStatistics& statistics) {
 
 void annealPatches(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                    std::span<const LabelGrid> examples, std::vector<Label>& labels,
-                   ModelStatistics& statistics, const Progress& progress) {
-  PatchAnnealing(problem, base, chooser, examples, labels, progress).run(statistics);
+                   const AnnealSchedule& schedule, ModelStatistics& statistics,
+                   const Progress& progress) {
+  PatchAnnealing(problem, base, chooser, examples, labels, schedule, progress).run(statistics);
 }
 
 }  // namespace exemplar

@@ -12,6 +12,13 @@
 
 namespace exemplar {
 
+struct AnnealSchedule {
+  double moves = 8;  ///< for each column, >= 0
+  double hot = 20;   ///< the temperature at first, in blocks, >= 0; at last it is 0
+  int looks = 4;     ///< columns looked at to find one where the example is not met, >= 1
+  int shift = 3;     ///< how far apart these are at most, in columns, >= 0
+};
+
 /// Makes a labeling hold what the example holds: Metropolis sampling with patches of the example as
 /// moves (Metropolis et al., J. Chem. Phys. 21, 1953), cooled down (Kirkpatrick, Gelatt, Vecchi:
 /// "Optimization by simulated annealing", Science 220, 1983).
@@ -38,6 +45,7 @@ namespace exemplar {
 /// thread. Throws `Cancelled`.
 void annealPatches(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                    std::span<const LabelGrid> examples, std::vector<Label>& labels,
-                   ModelStatistics& statistics, const Progress& progress = {});
+                   const AnnealSchedule& schedule, ModelStatistics& statistics,
+                   const Progress& progress = {});
 
 }  // namespace exemplar

@@ -187,4 +187,12 @@ int LabelChooser::choose(const Random& random, int cell, std::span<const LabelWo
   });
 }
 
+int mostFrequentLabel(const Adjacency& adjacency, std::span<const LabelWord> labels) {
+  int best = -1;
+  forEachLabel(labels, [&](int b) {
+    if (best < 0 || adjacency.frequency[b] > adjacency.frequency[best]) best = b;
+  });
+  return best;
+}
+
 }  // namespace exemplar

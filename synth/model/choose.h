@@ -70,4 +70,8 @@ class LabelChooser {
   std::unique_ptr<Resemblance> resemblance_;
 };
 
+/// Of a set of labels the one that is most frequent in the examples, the first of several; -1 where
+/// the set is empty.
+int mostFrequentLabel(const Adjacency& adjacency, std::span<const LabelWord> labels);
+
 }  // namespace exemplar

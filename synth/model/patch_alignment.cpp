@@ -19,7 +19,7 @@ int wrapped(int i, int n) { return ((i % n) + n) % n; }
 }  // namespace
 
 PatchAlignments::PatchAlignments(const ModelProblem& problem, std::span<const PatchSource> sources,
-                                 const BlockCounts& counts)
+                                 const BlockCounts* counts)
     : problem_(problem), sources_(sources), counts_(counts) {}
 
 /// Brings a cell back over periodic sides; false where it is outside.
@@ -57,16 +57,16 @@ PatchMove::Alignment PatchAlignments::anywhere(Draws& draws,
 std::optional<PatchMove::Alignment> PatchAlignments::byBlock(Draws& draws,
                                                              const PatchMove::Window& window,
                                                              const CellBox& core) const {
-  const Vec3i n = counts_.blockSize();
+  const Vec3i n = counts_->blockSize();
   for (int i = 0; i <= kTriesForRare; ++i) {
     const Vec3i step{draws.between(core.begin.x - n.x, core.end.x),
                      draws.between(core.begin.y - n.y, core.end.y),
                      draws.between(core.begin.z, core.end.z - 1)};
     Vec3i p = window.center + step;
     if (!within(p)) continue;
-    const std::int32_t block = counts_.blockAt(problem_.position(p, window.frame));
+    const std::int32_t block = counts_->blockAt(problem_.position(p, window.frame));
     if (block == BlockCounts::kUnknown) continue;
-    const auto places = counts_.places(block);
+    const auto places = counts_->places(block);
     if (i < kTriesForRare && places.size() > kRare) continue;
     const auto& place = places[draws.below(static_cast<int>(places.size()))];
     const PatchSource& source = sources_[place.source];
@@ -82,7 +82,6 @@ std::optional<PatchMove::Alignment> PatchAlignments::byBlock(Draws& draws,
   return std::nullopt;
 }
 
-/// The share of the cells around the core that agree, 0..1; less than 0 where the core does, too.
 double PatchAlignments::agreement(const PatchMove::Window& window,
                                   const PatchMove::Alignment& alignment, const CellBox& core,
                                   std::span<const Label> grid) const {
@@ -136,7 +135,7 @@ std::optional<PatchMove::Alignment> PatchAlignments::find(Draws& draws,
   double most = least;
   for (int i = 0; i < kCandidates; ++i) {
     std::optional<PatchMove::Alignment> candidate;
-    if (i % 2 == 1) candidate = byBlock(draws, window, core);
+    if (counts_ && i % 2 == 1) candidate = byBlock(draws, window, core);
     if (!candidate) candidate = anywhere(draws, window);
     const double agrees = agreement(window, *candidate, core, grid);
     if (agrees < 0 || agrees <= most) continue;

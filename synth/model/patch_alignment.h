@@ -38,27 +38,28 @@ class Draws {
 /// a rare one if that can be had. O(candidates x cells around the core).
 class PatchAlignments {
  public:
-  /// All must outlive this.
+  /// All must outlive this. Without `counts` nothing is found by blocks.
   PatchAlignments(const ModelProblem& problem, std::span<const PatchSource> sources,
-                  const BlockCounts& counts);
+                  const BlockCounts* counts = nullptr);
 
   /// `grid` has the label of each position. None where all candidates are what is there, or none
   /// agrees with more than the share `least` of the cells around.
   std::optional<PatchMove::Alignment> find(Draws& draws, const PatchMove::Window& window,
                                            const CellBox& core, std::span<const Label> grid,
                                            double least) const;
+  /// The share of the cells around a core that agree, 0..1; less than 0 where the core does, too.
+  double agreement(const PatchMove::Window& window, const PatchMove::Alignment& alignment,
+                   const CellBox& core, std::span<const Label> grid) const;
 
  private:
   PatchMove::Alignment anywhere(Draws& draws, const PatchMove::Window& window) const;
   std::optional<PatchMove::Alignment> byBlock(Draws& draws, const PatchMove::Window& window,
                                               const CellBox& core) const;
-  double agreement(const PatchMove::Window& window, const PatchMove::Alignment& alignment,
-                   const CellBox& core, std::span<const Label> grid) const;
   bool within(Vec3i& p) const;
 
   const ModelProblem& problem_;
   std::span<const PatchSource> sources_;
-  const BlockCounts& counts_;
+  const BlockCounts* counts_;
 };
 
 }  // namespace exemplar

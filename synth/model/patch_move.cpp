@@ -6,14 +6,10 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/disjoint_sets.h"
+
 namespace exemplar {
 namespace {
-
-/// More than this is not one patch any more.
-constexpr int kMostChanged = 2000;        // cells
-constexpr std::size_t kMostInRim = 1000;  // cells
-/// Wrong choices in the search for a rim's labels: those that are found at all are found soon.
-constexpr std::int64_t kRimConflicts = 20;
 
 int wrapped(int i, int n) { return ((i % n) + n) % n; }
 
@@ -38,9 +34,11 @@ PatchMove::PatchMove(const ModelProblem& problem, const LabelSets& base,
       words_(problem.network().words()) {
   for (const LabelSets& table : network_.support) support_.push_back(table.data());
   for (const CellOffset& o : problem.offsets()) {
-    steps_.push_back({{o.x, o.y, o.z}, o.t});
-    steps_.push_back({{-o.x, -o.y, -o.z}, -o.t});
+    for (const int sign : {1, -1})
+      steps_.push_back({Vec3i{o.x, o.y, o.z} * sign, o.t * sign, support_[steps_.size()]});
+    furthest_ = max(furthest_, Vec3i{std::abs(o.x), std::abs(o.y), std::abs(o.z)});
   }
+  numbered_ = problem.positions() == problem.network().cells;
 }
 
 std::size_t PatchMove::local(const Vec3i& step, int frameStep) const {
@@ -69,11 +67,12 @@ Label PatchMove::sourceLabel(const Vec3i& step, int frameStep) const {
 void PatchMove::add(std::int32_t cell, const Vec3i& step, int frameStep) {
   const Label label = sourceLabel(step, frameStep);
   if (label >= network_.labels || !containsLabel(base_[cell], label)) {
-    conflicts_.emplace_back(step, frameStep);
+    conflicts_.push_back({step, frameStep, 0});
     return;
   }
   const std::size_t here = local(step, frameStep);
   changed_ += label != labels_[cell];
+  implied_ += !patch_.core.contains(step);
   stamp_[here] = now_;
   member_[here] = static_cast<std::uint32_t>(members_.size());
   members_.push_back({cell, label, step, frameStep});
@@ -84,24 +83,25 @@ void PatchMove::across(std::int32_t to, int relation, Label label, const Vec3i& 
                        int frameStep) {
   const LabelWord* allowed = support_[relation] + static_cast<std::size_t>(label) * words_;
   const auto allows = [&](Label other) { return allowed[other / 64] >> (other % 64) & 1; };
+  if (sound_.contains(step)) return;
   const bool in = inGrown(step);
   if (in) {
     const std::size_t there = local(step, frameStep);
     if (stamp_[there] == now_) {
       // Of a source that the request does not suit two labels may exclude each other.
-      if (!allows(members_[member_[there]].label)) conflicts_.emplace_back(step, frameStep);
+      if (!allows(members_[member_[there]].label)) conflicts_.push_back({step, frameStep, 0});
       return;
     }
   }
   if (allows(labels_[to])) return;
   if (!in) {
-    conflicts_.emplace_back(step, frameStep);
+    conflicts_.push_back({step, frameStep, 0});
     return;
   }
   const std::size_t before = members_.size();
   add(to, step, frameStep);
   if (members_.size() > before && !allows(members_.back().label))
-    conflicts_.emplace_back(step, frameStep);
+    conflicts_.push_back({step, frameStep, 0});
 }
 
 void PatchMove::stepTo(std::int32_t cell, Vec3i& step, int& frameStep) const {
@@ -113,14 +113,13 @@ void PatchMove::stepTo(std::int32_t cell, Vec3i& step, int& frameStep) const {
   frameStep = wrappedStep(problem_.frameAt(at) - window_.frame, o.frames, o.loop);
 }
 
-void PatchMove::follow(std::size_t number) {
-  const Member member = members_[number];
+void PatchMove::follow(const Member& member) {
   const auto near = network_.neighbors(member.cell);
   for (int s = 0; s < network_.slots; ++s) {
     const std::int32_t n = near[s];
     if (n == network_.cells) continue;
-    Vec3i step = member.step + steps_[s].first;
-    int frameStep = member.frameStep + steps_[s].second;
+    Vec3i step = member.step + steps_[s].by;
+    int frameStep = member.frameStep + steps_[s].frames;
     if (images_) stepTo(n, step, frameStep);
     across(n, s, member.label, step, frameStep);
   }
@@ -132,11 +131,12 @@ void PatchMove::follow(std::size_t number) {
   }
 }
 
-void PatchMove::findMembers() {
+void PatchMove::beginMembers() {
   const ModelOptions& o = problem_.options();
   members_.clear();
   conflicts_.clear();
-  changed_ = 0;
+  fromCore_.clear();
+  changed_ = implied_ = 0;
   const std::size_t wide = 2 * static_cast<std::size_t>(window_.reach) + 1;
   const std::size_t places = wide * wide * o.size.z * o.frames;
   if (places > stamp_.size() || ++now_ == 0) {
@@ -144,6 +144,11 @@ void PatchMove::findMembers() {
     member_.resize(places);
     now_ = 1;
   }
+}
+
+/// Lets the cells of the core take the source's labels, each by itself.
+void PatchMove::addCore() {
+  const ModelOptions& o = problem_.options();
   // Cells that have the source's label are at fault with nothing: they are not followed.
   const PatchSource& source = sources_[alignment_.source];
   const CellBox& core = patch_.core;
@@ -169,22 +174,98 @@ void PatchMove::findMembers() {
       }
     }
   }
-  for (std::size_t m = 0; m < members_.size(); ++m) {
-    if (changed_ > kMostChanged || static_cast<int>(conflicts_.size()) > patch_.mostConflicts)
-      return;
-    follow(m);
+}
+
+/// The same where all pairs of the source are allowed, and the request leaves every cell of the
+/// core the source's label: then pairs within the core are right, and only what is near its border
+/// is looked at. False where that is not so.
+bool PatchMove::addSoundCore() {
+  const ModelOptions& o = problem_.options();
+  const PatchSource& source = sources_[alignment_.source];
+  if (!source.sound || images_ || o.frames > 1 || o.periodic.z) return false;
+  const Vec3i& c = window_.center;
+  CellBox core = patch_.core & CellBox{Vec3i{} - alignment_.cell, source.size - alignment_.cell};
+  core.begin.z = std::max(core.begin.z, -c.z);
+  core.end.z = std::min(core.end.z, o.size.z - c.z);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (o.periodic[axis]) continue;
+    core.begin[axis] = std::max(core.begin[axis], -c[axis]);
+    core.end[axis] = std::min(core.end[axis], o.size[axis] - c[axis]);
   }
+  if (core.empty()) return true;
+  CellBox inner{core.begin + furthest_, core.end - furthest_};
+  // Beyond the lowest and the highest layer there is nothing.
+  if (core.begin.z == -c.z) inner.begin.z = core.begin.z;
+  if (core.end.z == o.size.z - c.z) inner.end.z = core.end.z;
+  sound_ = core;
+  const int high = core.end.z - core.begin.z;
+  Vec3i step{0, 0, core.begin.z};
+  for (step.x = core.begin.x; step.x < core.end.x; ++step.x) {
+    const int x = o.periodic.x ? wrapped(c.x + step.x, o.size.x) : c.x + step.x;
+    for (step.y = core.begin.y; step.y < core.end.y; ++step.y) {
+      const int y = o.periodic.y ? wrapped(c.y + step.y, o.size.y) : c.y + step.y;
+      step.z = core.begin.z;
+      const std::int64_t at = problem_.position({x, y, c.z + step.z});
+      const Label* from = source.labels.data() + source.position(alignment_.cell + step, 0);
+      if (numbered_ && std::equal(from, from + high, labels_.data() + at)) continue;
+      const bool beside = step.x < inner.begin.x || step.x >= inner.end.x ||
+                          step.y < inner.begin.y || step.y >= inner.end.y;
+      for (int k = 0; k < high; ++k) {
+        const std::int32_t cell = problem_.cell(at + k);
+        if (cell < 0 || from[k] == labels_[cell]) continue;
+        if (!containsLabel(base_[cell], from[k])) {
+          sound_ = {};
+          return false;
+        }
+        fromCore_.push_back({cell, from[k]});
+        step.z = core.begin.z + k;
+        if (!beside && step.z >= inner.begin.z && step.z < inner.end.z) continue;
+        border_.push_back({cell, from[k], step, 0});
+      }
+    }
+  }
+  changed_ = static_cast<int>(fromCore_.size());
+  return true;
+}
+
+void PatchMove::findMembers() {
+  sound_ = {};
+  border_.clear();
+  beginMembers();
+  if (addSoundCore()) {
+    for (std::size_t m = 0; m < border_.size() && !tooMuch(); ++m) follow(border_[m]);
+  } else {
+    beginMembers();
+    addCore();
+  }
+  for (std::size_t m = 0; m < members_.size() && !tooMuch(); ++m) follow(Member{members_[m]});
+}
+
+/// Conflicts whose rims meet are one group; groups come one after the other.
+void PatchMove::groupConflicts() {
+  DisjointSets sets(conflicts_.size());
+  const int near = 2 * patch_.rim + 1;
+  for (std::uint32_t a = 0; a < conflicts_.size(); ++a) {
+    for (std::uint32_t b = 0; b < a; ++b) {
+      const Vec3i d = conflicts_[a].step - conflicts_[b].step;
+      if (std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= near) sets.join(a, b);
+    }
+  }
+  for (std::uint32_t a = 0; a < conflicts_.size(); ++a) conflicts_[a].group = sets.find(a);
+  std::stable_sort(conflicts_.begin(), conflicts_.end(),
+                   [](const Conflict& a, const Conflict& b) { return a.group < b.group; });
 }
 
 /// The cells near conflicts, ascending.
-void PatchMove::findRim() {
+void PatchMove::findRim(std::span<const Conflict> conflicts, int rim) {
   const ModelOptions& o = problem_.options();
-  const int wide = 2 * window_.reach + 1, rim = patch_.rim;
+  const int wide = 2 * window_.reach + 1;
   const int words = (o.size.z + 63) / 64;
   // A bit for each height of each column.
   marked_.assign(static_cast<std::size_t>(wide) * wide * words, 0);
   heights_.assign(static_cast<std::size_t>(words), 0);
-  for (const auto& [step, frameStep] : conflicts_) {
+  for (const Conflict& c : conflicts) {
+    const Vec3i& step = c.step;
     const int x = step.x + window_.reach, y = step.y + window_.reach;
     const int z = window_.center.z + step.z;
     std::fill(heights_.begin(), heights_.end(), 0);
@@ -226,10 +307,28 @@ void PatchMove::findRim() {
   }
 }
 
+bool PatchMove::closeRims(const Random& random, std::vector<Before>& before,
+                          const Progress& progress) {
+  groupConflicts();
+  std::uint64_t attempt = 0;
+  for (std::size_t first = 0, last = 0; first < conflicts_.size(); first = last) {
+    while (last < conflicts_.size() && conflicts_[last].group == conflicts_[first].group) ++last;
+    const std::span<const Conflict> group(conflicts_.data() + first, last - first);
+    bool closed = false;
+    const int widest = std::max(patch_.rim, patch_.widestRim);
+    for (int rim = patch_.rim; !closed && rim <= widest; rim += rim / 2 + 1) {
+      findRim(group, rim);
+      closed = closeRim(random.fork(attempt++), before, progress);
+    }
+    if (!closed) return false;
+  }
+  return true;
+}
+
+/// Labels the rim.
 bool PatchMove::closeRim(const Random& random, std::vector<Before>& before,
                          const Progress& progress) {
-  findRim();
-  if (rim_.empty() || rim_.size() > kMostInRim) return false;
+  if (rim_.empty() || static_cast<int>(rim_.size()) > patch_.mostInRim) return false;
   if (!region_.takeBack(rim_, labels_, progress)) return false;
   RegionChoice choice{random};
   choice.choose = [&](const Random& numbers, int cell, std::span<const LabelWord> set, int draw) {
@@ -243,7 +342,7 @@ bool PatchMove::closeRim(const Random& random, std::vector<Before>& before,
     return chooser_.choose(numbers, cell, set, draw, region_.placed());
   };
   const RegionEffort effort{
-      .passes = 0, .searches = 1, .searchConflicts = kRimConflicts, .exactConflicts = 0};
+      .passes = 0, .searches = 1, .searchConflicts = patch_.rimConflicts, .exactConflicts = 0};
   if (region_.relabel(effort, choice, progress) != exemplar::Outcome::Complete) return false;
   for (int i = 0; i < region_.count(); ++i) {
     const int cell = region_.cells()[i];
@@ -263,15 +362,18 @@ PatchMove::Outcome PatchMove::make(const Window& window, const Alignment& alignm
   labels_ = labels;
   before.clear();
   findMembers();
-  if (changed_ == 0 || changed_ > kMostChanged) return Outcome::Nothing;
+  if (changed_ == 0 || changed_ > patch_.mostChanged || implied_ > patch_.mostImplied)
+    return Outcome::Nothing;
   if (static_cast<int>(conflicts_.size()) > patch_.mostConflicts) return Outcome::Conflict;
-  for (const Member& m : members_) {
-    if (labels_[m.cell] == m.label) continue;
-    before.push_back({m.cell, labels_[m.cell]});
-    labels_[m.cell] = m.label;
-  }
-  if (conflicts_.empty() || (worth() && closeRim(random, before, progress))) return Outcome::Made;
-  for (const Before& b : before) labels_[b.cell] = b.label;
+  const auto put = [&](std::int32_t cell, Label label) {
+    if (labels_[cell] == label) return;
+    before.push_back({cell, labels_[cell]});
+    labels_[cell] = label;
+  };
+  for (const Before& c : fromCore_) put(c.cell, c.label);
+  for (const Member& m : members_) put(m.cell, m.label);
+  if (conflicts_.empty() || (worth() && closeRims(random, before, progress))) return Outcome::Made;
+  for (auto b = before.rbegin(); b != before.rend(); ++b) labels_[b->cell] = b->label;
   before.clear();
   return Outcome::Conflict;
 }

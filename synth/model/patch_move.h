@@ -50,8 +50,14 @@ class PatchMove {
   struct Patch {
     CellBox core;   ///< takes the source's labels where there are any
     CellBox grown;  ///< how far implications are followed; within the window, and holds the core
-    int rim = 1;    ///< how far around a conflict cells are set free, >= 0
+    int rim = 1;    ///< how far around a conflict cells are set free at first, >= 0
+    int widestRim = 0;       ///< and at most, where a narrower rim cannot be closed
     int mostConflicts = 60;  ///< more are not worked on
+    int mostChanged = 2000;  ///< cells; more is not one patch
+    int mostInRim = 1000;    ///< cells
+    /// Wrong choices in the search for the rims' labels: those found at all are found soon.
+    int rimConflicts = 20;
+    int mostImplied = 2000;  ///< cells beyond the core that implications may come to
   };
   struct Before {
     std::int32_t cell;
@@ -80,15 +86,36 @@ class PatchMove {
     Vec3i step;   // from the center
     int frameStep;
   };
+  /// The neighbor along a slot, and what a cell of each label allows there.
+  struct Step {
+    Vec3i by;
+    int frames;
+    const LabelWord* support;
+  };
+
+  struct Conflict {
+    Vec3i step;
+    int frameStep;
+    std::uint32_t group;
+  };
 
   void add(std::int32_t cell, const Vec3i& step, int frameStep);
   std::size_t local(const Vec3i& step, int frameStep) const;
   bool inGrown(const Vec3i& step) const;
+  bool tooMuch() const {
+    return changed_ > patch_.mostChanged || implied_ > patch_.mostImplied ||
+           static_cast<int>(conflicts_.size()) > patch_.mostConflicts;
+  }
   void stepTo(std::int32_t cell, Vec3i& step, int& frameStep) const;
-  void follow(std::size_t member);
+  void follow(const Member& member);
   void across(std::int32_t to, int relation, Label label, const Vec3i& step, int frameStep);
+  void beginMembers();
+  void addCore();
+  bool addSoundCore();
   void findMembers();
-  void findRim();
+  void groupConflicts();
+  void findRim(std::span<const Conflict> conflicts, int rim);
+  bool closeRims(const Random& random, std::vector<Before>& before, const Progress& progress);
   bool closeRim(const Random& random, std::vector<Before>& before, const Progress& progress);
   Label sourceLabel(const Vec3i& step, int frameStep) const;
 
@@ -100,16 +127,20 @@ class PatchMove {
   Region region_;
   bool images_;  // whether cells stand for several positions
   int words_;
-  std::vector<const LabelWord*> support_;     // of each relation
-  std::vector<std::pair<Vec3i, int>> steps_;  // along each slot
+  std::vector<const LabelWord*> support_;  // of each relation
+  std::vector<Step> steps_;                // along each slot
+  Vec3i furthest_;                         // along each axis
+  bool numbered_;                          // whether cells are numbered as positions are
 
   Window window_;
   Alignment alignment_;
   Patch patch_;
   std::span<Label> labels_;
-  int changed_ = 0;
-  std::vector<Member> members_;
-  std::vector<std::pair<Vec3i, int>> conflicts_;
+  int changed_ = 0, implied_ = 0;
+  CellBox sound_;                 // of the core, takes the source's labels whole; empty: not so
+  std::vector<Before> fromCore_;  // the cells of that which change, and the source's labels
+  std::vector<Member> border_, members_;  // of that those near its border; the others
+  std::vector<Conflict> conflicts_;
   std::vector<std::uint32_t> member_, stamp_;  // of each place in the window
   std::uint32_t now_ = 0;
   std::vector<std::uint64_t> marked_, heights_;

@@ -30,6 +30,27 @@ PatchSource turnedSource(const SymmetryGroup& group, int e, std::span<const Labe
   return source;
 }
 
+/// Whether all pairs of cells in a source are allowed. Not so where neighbors are those that agree
+/// in samples they share, up to a tolerance, or where a symmetry has taken pairs away.
+bool soundSource(const ModelProblem& problem, const PatchSource& source) {
+  if (source.frames > 1) return false;
+  const LabelNetwork& network = problem.network();
+  for (std::size_t r = 0; r < problem.offsets().size(); ++r) {
+    const CellOffset& o = problem.offsets()[r];
+    if (o.t != 0) continue;
+    const LabelSets& allowed = network.support[2 * r];
+    bool sound = true;
+    forEachCell(source.size, [&](const Vec3i& p) {
+      const Vec3i q = p + Vec3i{o.x, o.y, o.z};
+      if (!sound || !source.contains(q, 0)) return;
+      const Label a = source.at(p, 0), b = source.at(q, 0);
+      sound = a < network.labels && b < network.labels && containsLabel(allowed[a], b);
+    });
+    if (!sound) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<PatchSource> patchSources(const ModelProblem& problem,
@@ -51,7 +72,10 @@ std::vector<PatchSource> patchSources(const ModelProblem& problem,
       columns += sources.back().share;
     }
   }
-  for (PatchSource& source : sources) source.share /= columns;
+  for (PatchSource& source : sources) {
+    source.share /= columns;
+    source.sound = soundSource(problem, source);
+  }
   return sources;
 }
 

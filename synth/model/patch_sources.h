@@ -17,6 +17,7 @@ struct PatchSource {
   Vec3i size;
   int frames = 1;
   double share = 1;           ///< of what all sources together stand for
+  bool sound = false;         ///< whether all pairs in it are allowed, so that it can be relied on
   std::vector<Label> labels;  ///< in column order, as `ModelProblem` numbers positions
 
   bool contains(const Vec3i& p, int frame) const {

@@ -238,7 +238,7 @@ bool consistent(const LabelNetwork& network, const std::vector<Label>& labels) {
 std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, const LabelSets& base,
                                                  const LabelChooser& chooser,
                                                  ModelStatistics& statistics,
-                                                 const Progress& progress) {
+                                                 const Progress& progress, bool plain) {
   const std::vector<Pattern> list = patterns(problem.options().size);
   for (std::size_t number = 0; number < list.size(); ++number) {
     progress.report("finding a tile to begin with",
@@ -256,6 +256,7 @@ std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, co
     if (!region.takeBack(all, std::span<const Label>{}, progress)) continue;
     RegionChoice choice{chooser.numbersFor(LabelChooser::Purpose::Start).fork(number)};
     choice.choose = [&](const Random& random, int c, std::span<const LabelWord> set, int draw) {
+      if (plain) return mostFrequentLabel(problem.adjacency(), set);
       return chooser.choose(random, tile.members()[c], set, draw);
     };
     const RegionEffort effort{.passes = 0,

@@ -17,11 +17,12 @@ namespace exemplar {
 /// none does, with one to four columns along each side that do not repeat, since what may be at a
 /// side seldom goes on within. The thesis takes the example's corner or empty space for granted
 /// (section 3.3.6); here tiles are searched, smallest first, exactly where propagation does not
-/// decide. None: no tile of these sizes does. O(cells) for each size tried.
+/// decide. None: no tile of these sizes does. With `plain` cells take the label that is most
+/// frequent in the examples, not one at random. O(cells) for each size tried.
 std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, const LabelSets& base,
                                                  const LabelChooser& chooser,
                                                  ModelStatistics& statistics,
-                                                 const Progress& progress);
+                                                 const Progress& progress, bool plain = false);
 
 /// Whether every pair of neighbors in the network is allowed.
 bool consistent(const LabelNetwork& network, const std::vector<Label>& labels);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 
 #include "core/error.h"
@@ -20,6 +21,7 @@
 #include "synth/model/limits.h"
 #include "synth/model/origins.h"
 #include "synth/model/problem.h"
+#include "synth/model/quilt_labels.h"
 #include "synth/model/start.h"
 #include "synth/model/whole.h"
 
@@ -123,6 +125,38 @@ std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& exa
   return grids;
 }
 
+/// How a result is annealed that windows of a smaller one have been laid in: only joints are left,
+/// the fewer moves for each column the more columns there are.
+AnnealSchedule quiltedSchedule(const ModelOptions& options) {
+  constexpr double kColumns = 10'000, kShare = 0.25, kLeastShare = 0.02;
+  const double columns = double(options.size.x) * options.size.y;
+  const double share = std::max(kShare * std::sqrt(kColumns / columns), kLeastShare);
+  return {.moves = options.moves * share, .hot = 4, .looks = 16, .shift = 16};
+}
+
+/// Brings a labeling to what the example holds.
+void matchStatistics(const ModelProblem& problem, const LabelSets& base,
+                     const LabelChooser& chooser, std::span<const LabelGrid> examples,
+                     std::vector<Label>& labels, ModelStatistics& statistics,
+                     const Progress& progress) {
+  const ModelOptions& options = problem.options();
+  AnnealSchedule schedule{.moves = options.moves};
+  double done = 0;
+  if (canQuilt(options)) {
+    constexpr int kWindow = 32;  // columns
+    // What the example holds is decided in a smaller result; few moves mend its joints.
+    const ModelResult sample = synthesizeModel(examples, problem.adjacency(),
+                                               quiltSampleOptions(options), progress.part(0, 0.2));
+    if (sample.outcome == Outcome::Complete) {
+      quiltLabels(problem, base, chooser, sample.grid(), kWindow, labels, progress.part(0.2, 0.4));
+      schedule = quiltedSchedule(options);
+    }
+    done = 0.4;
+  }
+  annealPatches(problem, base, chooser, examples, labels, schedule, statistics,
+                progress.part(done, 1));
+}
+
 Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                ModelStatistics& statistics, const Progress& progress) {
   // Metropolis needs something to compare with.
@@ -136,6 +170,13 @@ Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelCh
     return labeling;
   };
   if (method == ModelMethod::Whole) return whole(std::nullopt);
+  if (method == ModelMethod::Auto && canQuilt(problem.options())) {
+    // All that is to be there comes with windows of a smaller result.
+    if (auto ground =
+            findTiledStart(problem, base, chooser, statistics, progress.part(0, 0.1), true))
+      return {Outcome::Complete, std::move(*ground), 1};
+    done = 0.1;
+  }
   // Patches bring what is to be there: ground is enough to begin with. Where things run over the
   // sides, though, patches have nothing to end them with: there has to be something to go on from.
   const auto& sides = problem.options().sides;
@@ -197,8 +238,8 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
     const double labeled = options.moves > 0 ? 0.3 : 0.85;
     labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, labeled));
     if (labeling.outcome == Outcome::Complete && options.moves > 0) {
-      annealPatches(problem, base, chooser, examples, labeling.labels, result.statistics,
-                    progress.part(labeled, 0.85));
+      matchStatistics(problem, base, chooser, examples, labeling.labels, result.statistics,
+                      progress.part(labeled, 0.85));
     }
     if (labeling.outcome == Outcome::Complete) {
       labeling = meetLimits(problem, base, chooser, std::move(labeling.labels), result.statistics,

@@ -85,7 +85,8 @@ struct ModelOptions {
 
   /// Patches of the example tried for each column of the result after it is labeled, so that blocks
   /// occur as often as in the example (`annealPatches`); 0: none. With some, and
-  /// no vertical side free, `Auto` begins with the most frequent labels.
+  /// no vertical side free, `Auto` begins with the most frequent labels. Results of more than
+  /// 12,000 columns are quilted from a smaller one (`quiltLabels`), with fewer moves a column.
   double moves = 8;
   /// What a window of 8 x 8 columns costs then that stands verbatim in the example, >= 0, in blocks
   /// that occur once too often.

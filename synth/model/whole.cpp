@@ -73,7 +73,9 @@ class WholePass {
   }
   Outcome repair(int cell);
   Outcome repairWithin(int cell, int reach);
-  int mostFrequent(std::span<const LabelWord> labels) const;
+  int mostFrequent(std::span<const LabelWord> labels) const {
+    return mostFrequentLabel(problem_.adjacency(), labels);
+  }
 
   const ModelProblem& problem_;
   const LabelNetwork& network_;
@@ -88,15 +90,6 @@ class WholePass {
   std::uint64_t repairs_ = 0;
   int lastRepaired_ = -1, lastReach_ = 0, again_ = 0;
 };
-
-int WholePass::mostFrequent(std::span<const LabelWord> labels) const {
-  int best = -1;
-  const auto& frequency = problem_.adjacency().frequency;
-  forEachLabel(labels, [&](int b) {
-    if (best < 0 || frequency[b] > frequency[best]) best = b;
-  });
-  return best;
-}
 
 /// Relabels the cells within `reach` of one, in the whole catalog too. Of these and of cells
 /// around them those after `cell` are not labeled yet: they are set free again. Complete;

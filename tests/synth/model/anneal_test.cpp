@@ -264,7 +264,7 @@ TEST_P(AnnealEachExample, BringsTheExamplesStatisticsAndKeepsItsPairs) {
   Labeled l(example, sized({26, 24, example.size().z}));
   const double before = l.energy();
   ModelStatistics statistics;
-  annealPatches(l.problem, l.base, l.chooser, std::span(&l.example, 1), l.labels, statistics);
+  annealPatches(l.problem, l.base, l.chooser, std::span(&l.example, 1), l.labels, {}, statistics);
   EXPECT_TRUE(consistent(l.problem.network(), l.labels));
   EXPECT_LT(l.energy(), 0.8 * before);
   EXPECT_GT(statistics.movesKept, 0);
@@ -390,7 +390,8 @@ TEST(AnnealPatches, AHighPriceForCopiesLeavesFewer) {
       o.copyPrice = price;
       Labeled l(example, o);
       ModelStatistics statistics;
-      annealPatches(l.problem, l.base, l.chooser, std::span(&l.example, 1), l.labels, statistics);
+      annealPatches(l.problem, l.base, l.chooser, std::span(&l.example, 1), l.labels, {},
+                    statistics);
       CopiedWindows windows(l.problem, l.sources);
       windows.count(l.grid());
       sum += windows.copies();
@@ -406,7 +407,7 @@ TEST(AnnealPatches, ReportsAndStops) {
   testing::expectReportsAndStops(4, [&](const Progress& progress) {
     std::vector<Label> labels = l.labels;
     ModelStatistics statistics;
-    annealPatches(l.problem, l.base, l.chooser, std::span(&l.example, 1), labels, statistics,
+    annealPatches(l.problem, l.base, l.chooser, std::span(&l.example, 1), labels, {}, statistics,
                   progress);
   });
 }
