@@ -530,6 +530,15 @@ TEST(HeightMapFile, ReadsTiffsOfEveryKind) {
   EXPECT_EQ(readHeightMap(tiff(tags, ints), "a.tif", {.cellSize = 25}).cellSize, 25);
 }
 
+TEST(HeightMapFile, BlocksThatATiffLeavesOutAreHoles) {
+  std::string bytes = tiff({.width = 4, .height = 4, .bits = 16}, "");
+  const std::size_t offsets = bytes.find(std::string("\x11\x01\x04\x00", 4));
+  ASSERT_NE(offsets, std::string::npos);
+  bytes.replace(offsets + 8, 4, 4, '\0');
+  EXPECT_THAT(inputError([&] { readHeightMap(bytes, "a.tif", {}); }),
+              HasSubstr("holds no heights"));
+}
+
 TEST(HeightMapFile, SaysWhatIsWrongWithATiff) {
   const std::string data(24, 'a');
   const auto error = [&](const TiffTags& tags) {
@@ -688,7 +697,7 @@ TEST(HeightMapFile, EveryPrefixIsReadOrRefused) {
   for (const auto& file : files) {
     const auto& name = file.first;  // no binding: lambdas of clang 14 capture none
     const auto& whole = file.second;
-    EXPECT_EQ(inputError([&] { readBytes(name, whole); }), "");
+    EXPECT_EQ(inputError([&] { readHeightMap(whole, name, {}); }), "");
     for (std::size_t n = 0; n < whole.size(); ++n) {
       // The last digits of a text may be missing without any trace.
       if (std::string(name) == "a.asc" && n + 3 >= whole.size()) continue;
@@ -697,7 +706,7 @@ TEST(HeightMapFile, EveryPrefixIsReadOrRefused) {
       // What a .tif says beside its heights may be lost, which is said.
       Warnings warnings;
       const std::string error =
-          inputError([&] { readBytes(name, whole.substr(0, n), {.warnings = &warnings}); });
+          inputError([&] { readHeightMap(whole.substr(0, n), name, {.warnings = &warnings}); });
       EXPECT_TRUE(!error.empty() || !warnings.empty()) << name << " " << n;
     }
   }
@@ -732,7 +741,7 @@ TEST(HeightMapFile, DamagedBytesAreReadOrRefusedButNothingElse) {
                       : "0123456789 \n-+.#e"[static_cast<unsigned char>(value) % 17];
     }
     try {
-      const HeightMap map = readBytes(name, bytes);
+      const HeightMap map = readHeightMap(bytes, name, {});
       ++read;
       ASSERT_TRUE(rangeOf(map.heights));
       for (const float h : map.heights.values()) ASSERT_FALSE(std::isinf(h));
