@@ -34,8 +34,11 @@ constexpr ttag_t kPixelScale = 33550, kTiepoints = 33922, kTransformation = 3426
 constexpr std::uint16_t kModelType = 1024, kRasterType = 1025, kLinearUnits = 3076;
 constexpr std::uint16_t kGeographic = 2, kPointRaster = 2, kMeter = 9001;
 constexpr double kLargestHeight = 1e15;
-/// Deflate and LZW make no more than so many bytes of one.
+/// Deflate, LZW and PackBits make no more than so many bytes of one.
 constexpr double kLargestRatio = 1500;
+/// Other compressions, and files that leave blocks out, are believed this much; a small file is
+/// believed so many bytes.
+constexpr double kBelievedRatio = 50'000, kBelievedBytes = 64e6;
 
 /// A file in memory, as libtiff reads and writes it.
 struct Memory {
@@ -221,7 +224,9 @@ class TiffReader {
                          compression == COMPRESSION_ADOBE_DEFLATE ||
                          compression == COMPRESSION_DEFLATE || compression == COMPRESSION_PACKBITS;
     const bool sparse = TIFFGetStrileByteCount(tiff_, 0) == 0;
-    if (bounded && !sparse && bytes > kLargestRatio * static_cast<double>(file_.bytes.size())) {
+    const auto size = static_cast<double>(file_.bytes.size());
+    if (bytes >
+        (bounded && !sparse ? kLargestRatio * size : kBelievedRatio * size + kBelievedBytes)) {
       fail("the file ends early: " + std::to_string(layout_.width) + " x " +
            std::to_string(layout_.height) + " points cannot be in " +
            std::to_string(file_.bytes.size()) + " bytes");

@@ -531,12 +531,16 @@ TEST(HeightMapFile, ReadsTiffsOfEveryKind) {
 }
 
 TEST(HeightMapFile, BlocksThatATiffLeavesOutAreHoles) {
-  std::string bytes = tiff({.width = 4, .height = 4, .bits = 16}, "");
-  const std::size_t offsets = bytes.find(std::string("\x11\x01\x04\x00", 4));
-  ASSERT_NE(offsets, std::string::npos);
-  bytes.replace(offsets + 8, 4, 4, '\0');
-  EXPECT_THAT(inputError([&] { readHeightMap(bytes, "a.tif", {}); }),
+  const auto without = [](std::uint32_t side) {
+    std::string bytes = tiff({.width = side, .height = side, .bits = 16}, "");
+    const std::size_t offsets = bytes.find(std::string("\x11\x01\x04\x00", 4));
+    return bytes.replace(offsets + 8, 4, 4, '\0');
+  };
+  EXPECT_THAT(inputError([&] { readHeightMap(without(4), "a.tif", {}); }),
               HasSubstr("holds no heights"));
+  // No file of some bytes holds gigabytes of them.
+  EXPECT_THAT(inputError([&] { readHeightMap(without(1 << 15), "a.tif", {}); }),
+              HasSubstr("ends early"));
 }
 
 TEST(HeightMapFile, SaysWhatIsWrongWithATiff) {
