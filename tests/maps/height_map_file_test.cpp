@@ -567,6 +567,18 @@ TEST(HeightMapFile, SaysWhatIsWrongWithATiff) {
   EXPECT_THAT(inputError([] { readHeightMap("hello", "a.exr", {}); }), HasSubstr("no whole .exr"));
 }
 
+TEST(HeightMapFile, AnExrThatPromisesTooMuchIsRefused) {
+  std::string bytes = written("a.exr", 9, 7);
+  // The data window's largest x and y, after its name, type and size.
+  const std::string window("dataWindow\0box2i\0\x10\0\0\0\0\0\0\0\0\0\0\0", 29);
+  const std::size_t at = bytes.find(window);
+  ASSERT_NE(at, std::string::npos);
+  for (const std::size_t place : {at + 29, at + 33})
+    bytes.replace(place, 4, std::string("\0\0\1\0", 4));
+  EXPECT_THAT(inputError([&] { readHeightMap(bytes, "a.exr", {}); }),
+              AllOf(HasSubstr("a.exr: "), Not(HasSubstr("\n"))));
+}
+
 /// The bytes that hexadecimal digits encode.
 std::string fromHex(const std::string& digits) {
   std::string bytes;
