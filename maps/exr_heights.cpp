@@ -30,8 +30,8 @@ namespace exemplar {
 namespace {
 
 constexpr double kLargestHeight = 1e15;
-/// Zip makes no more than so many bytes of one; so do the others.
-constexpr double kLargestRatio = 1500;
+/// How many bytes of heights one byte of a file is believed to hold, and a small file.
+constexpr double kBelievedRatio = 50'000, kBelievedBytes = 64e6;
 constexpr const char* kCellSize = "cellSize";
 constexpr const char* kWest = "west";
 constexpr const char* kSouth = "south";
@@ -116,7 +116,8 @@ HeightMap read(const HeightFile& file) {
   const Imf::Channel& channel = header.channels()[name.c_str()];
   if (channel.xSampling != 1 || channel.ySampling != 1)
     file.fail("has a channel " + name + " of fewer points than pixels");
-  if (2 * width * height > kLargestRatio * static_cast<double>(file.bytes.size())) {
+  if (2 * width * height >
+      kBelievedRatio * static_cast<double>(file.bytes.size()) + kBelievedBytes) {
     file.fail("the file ends early: " + exactNumber(width) + " x " + exactNumber(height) +
               " points cannot be in " + std::to_string(file.bytes.size()) + " bytes");
   }

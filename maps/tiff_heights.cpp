@@ -34,8 +34,11 @@ constexpr ttag_t kPixelScale = 33550, kTiepoints = 33922, kTransformation = 3426
 constexpr std::uint16_t kModelType = 1024, kRasterType = 1025, kLinearUnits = 3076;
 constexpr std::uint16_t kGeographic = 2, kPointRaster = 2, kMeter = 9001;
 constexpr double kLargestHeight = 1e15;
-/// Deflate and LZW make no more than so many bytes of one.
+/// Deflate, LZW and PackBits make no more than so many bytes of one.
 constexpr double kLargestRatio = 1500;
+/// Other compressions, and files that leave blocks out, are believed this much; a small file is
+/// believed so many bytes.
+constexpr double kBelievedRatio = 50'000, kBelievedBytes = 64e6;
 
 /// A file in memory, as libtiff reads and writes it.
 struct Memory {
@@ -215,7 +218,15 @@ class TiffReader {
     }
     const double bytes =
         1.0 * layout_.width * layout_.height * layout_.samples * (layout_.bits / 8);
-    if (bytes > kLargestRatio * static_cast<double>(file_.bytes.size())) {
+    std::uint16_t compression = COMPRESSION_NONE;
+    TIFFGetFieldDefaulted(tiff_, TIFFTAG_COMPRESSION, &compression);
+    const bool bounded = compression == COMPRESSION_NONE || compression == COMPRESSION_LZW ||
+                         compression == COMPRESSION_ADOBE_DEFLATE ||
+                         compression == COMPRESSION_DEFLATE || compression == COMPRESSION_PACKBITS;
+    const bool sparse = TIFFGetStrileByteCount(tiff_, 0) == 0;
+    const auto size = static_cast<double>(file_.bytes.size());
+    if (bytes >
+        (bounded && !sparse ? kLargestRatio * size : kBelievedRatio * size + kBelievedBytes)) {
       fail("the file ends early: " + std::to_string(layout_.width) + " x " +
            std::to_string(layout_.height) + " points cannot be in " +
            std::to_string(file_.bytes.size()) + " bytes");
@@ -300,6 +311,14 @@ class TiffReader {
     }
   }
 
+  /// Whether a block is not in the file, as GDAL writes ones without data: it stays a hole.
+  bool isLeftOut(std::uint32_t block) {
+    if (TIFFGetStrileByteCount(tiff_, block) != 0 || TIFFGetStrileOffset(tiff_, block) != 0)
+      return false;
+    file_.warn("blocks that are not in the file are read as cells without data");
+    return true;
+  }
+
   std::vector<unsigned char> blockOf(std::uint64_t bytes) const {
     requireMemory(static_cast<double>(bytes), file_.name + ": one of its blocks",
                   "save it in strips or tiles");
@@ -321,6 +340,7 @@ class TiffReader {
         const std::uint32_t here = std::min(rows, layout_.height - y);
         const auto strip = TIFFComputeStrip(tiff_, y, static_cast<std::uint16_t>(plane));
         const auto wanted = static_cast<tmsize_t>(row * here);
+        if (isLeftOut(strip)) continue;
         if (TIFFReadEncodedStrip(tiff_, strip, block.data(), wanted) != wanted)
           fail("cannot be read whole");
         take(map, block, 0, y, layout_.width, here, plane == 1);
@@ -350,6 +370,7 @@ class TiffReader {
           const auto tile =
               TIFFComputeTile(tiff_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                               0, static_cast<std::uint16_t>(plane));
+          if (isLeftOut(tile)) continue;
           if (TIFFReadEncodedTile(tiff_, tile, block.data(), static_cast<tmsize_t>(bytes)) !=
               static_cast<tmsize_t>(bytes))
             fail("cannot be read whole");

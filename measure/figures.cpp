@@ -140,7 +140,7 @@ constexpr TerrainRow kTerrainRows[] = {
     {"spectrum_slope", &TerrainFigures::spectrumSlope, "of power over wave number, logarithms"},
     {"relief", &TerrainFigures::relief, "highest less lowest"},
     {"largest_step", &TerrainFigures::largestStep, "between neighbors"},
-    {"flat_share", &TerrainFigures::flatShare, "of the cells, as high as their neighbors"},
+    {"flat_share", &TerrainFigures::flatShare, "of the cells, with under 2 % of the mean slope"},
     {"repeated_peaks", &TerrainFigures::repeatedPeaks, "share of peaks that occur twice"}};
 
 std::string text(const Figure& figure) {

@@ -25,6 +25,7 @@ constexpr std::size_t kSamples = 1'000'000;
 constexpr int kSmallestHalf = 32;
 constexpr int kLeastSpectrum = 32, kMostSpectrum = 512;
 constexpr double kSquareKilometer = 1e6;
+constexpr double kFlat = 0.02;  ///< of the mean slope
 constexpr std::size_t kRowsAtOnce = 32;
 
 void check(const Grid<float>& heights, const TerrainOptions& options) {
@@ -81,19 +82,50 @@ Steps stepsOf(const Grid<float>& heights, const Grid<std::uint8_t>* seams) {
                             });
 }
 
-std::optional<double> flatShareOf(const Grid<float>& heights) {
-  std::int64_t flat = 0, count = 0;
-  for (int y = 1; y + 1 < heights.height(); ++y) {
-    for (int x = 1; x + 1 < heights.width(); ++x) {
-      const float h = heights(x, y);
-      if (std::isnan(h)) continue;
-      ++count;
-      flat += heights(x - 1, y) == h && heights(x + 1, y) == h && heights(x, y - 1) == h &&
-              heights(x, y + 1) == h;
-    }
+/// The slope in a cell, by central differences, heights for each cell; NaN at the border.
+double slopeAt(const Grid<float>& heights, int x, int y) {
+  return std::hypot(double{heights(x + 1, y)} - heights(x - 1, y),
+                    double{heights(x, y + 1)} - heights(x, y - 1)) /
+         2;
+}
+
+/// A sum, and of how many.
+struct Mean {
+  double sum = 0;
+  std::int64_t count = 0;
+
+  Mean& operator+=(const Mean& other) {
+    sum += other.sum;
+    count += other.count;
+    return *this;
   }
-  return count > 0 ? std::optional(static_cast<double>(flat) / static_cast<double>(count))
-                   : std::nullopt;
+  double value() const { return count > 0 ? sum / static_cast<double>(count) : 0; }
+};
+
+/// The mean of a function of the slopes of a map.
+template <class Function>
+Mean meanOverSlopes(const Grid<float>& heights, const Function& function) {
+  const int rows = std::max(heights.height() - 1, 1);
+  return parallelSum<Mean>(
+      1, static_cast<std::size_t>(rows), kRowsAtOnce, [&](std::size_t first, std::size_t last) {
+        Mean mean;
+        for (auto y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
+          for (int x = 1; x + 1 < heights.width(); ++x) {
+            const double slope = slopeAt(heights, x, y);
+            if (std::isnan(slope)) continue;
+            mean.sum += function(slope);
+            ++mean.count;
+          }
+        }
+        return mean;
+      });
+}
+
+std::optional<double> flatShareOf(const Grid<float>& heights) {
+  const Mean slope = meanOverSlopes(heights, [](double s) { return s; });
+  if (slope.count == 0) return std::nullopt;
+  const double least = kFlat * slope.value();
+  return meanOverSlopes(heights, [&](double s) { return s <= least ? 1.0 : 0.0; }).value();
 }
 
 void measureWater(const Grid<float>& heights, const TerrainOptions& options,

@@ -41,7 +41,8 @@ struct TerrainFigures {
   std::optional<double> spectrumSlope;  ///< `spectrumSlope`
   /// The largest step between neighboring cells.
   std::optional<double> largestStep;
-  /// The share of cells as high as their four neighbors: what terraces and plateaus have.
+  /// The share of cells whose slope is under 2 % of the mean slope: what terraces, plateaus and
+  /// hollows that were filled up have.
   std::optional<double> flatShare;
   std::optional<double> repeatedPeaks;  ///< `repeatedPeaks`
 };

@@ -530,6 +530,19 @@ TEST(HeightMapFile, ReadsTiffsOfEveryKind) {
   EXPECT_EQ(readHeightMap(tiff(tags, ints), "a.tif", {.cellSize = 25}).cellSize, 25);
 }
 
+TEST(HeightMapFile, BlocksThatATiffLeavesOutAreHoles) {
+  const auto without = [](std::uint32_t side) {
+    std::string bytes = tiff({.width = side, .height = side, .bits = 16}, "");
+    const std::size_t offsets = bytes.find(std::string("\x11\x01\x04\x00", 4));
+    return bytes.replace(offsets + 8, 4, 4, '\0');
+  };
+  EXPECT_THAT(inputError([&] { readHeightMap(without(4), "a.tif", {}); }),
+              HasSubstr("holds no heights"));
+  // No file of some bytes holds gigabytes of them.
+  EXPECT_THAT(inputError([&] { readHeightMap(without(1 << 15), "a.tif", {}); }),
+              HasSubstr("ends early"));
+}
+
 TEST(HeightMapFile, SaysWhatIsWrongWithATiff) {
   const std::string data(24, 'a');
   const auto error = [&](const TiffTags& tags) {
@@ -552,6 +565,18 @@ TEST(HeightMapFile, SaysWhatIsWrongWithATiff) {
   EXPECT_THAT(error({.width = 1, .height = 12, .bits = 16}), HasSubstr("at least 2 x 2"));
   EXPECT_THAT(inputError([] { readHeightMap("hello", "a.tif", {}); }), HasSubstr("no .tif"));
   EXPECT_THAT(inputError([] { readHeightMap("hello", "a.exr", {}); }), HasSubstr("no whole .exr"));
+}
+
+TEST(HeightMapFile, AnExrThatPromisesTooMuchIsRefused) {
+  std::string bytes = written("a.exr", 9, 7);
+  // The data window's largest x and y, after its name, type and size.
+  const std::string window("dataWindow\0box2i\0\x10\0\0\0\0\0\0\0\0\0\0\0", 29);
+  const std::size_t at = bytes.find(window);
+  ASSERT_NE(at, std::string::npos);
+  for (const std::size_t place : {at + 29, at + 33})
+    bytes.replace(place, 4, std::string("\0\0\1\0", 4));
+  EXPECT_THAT(inputError([&] { readHeightMap(bytes, "a.exr", {}); }),
+              AllOf(HasSubstr("a.exr: "), Not(HasSubstr("\n"))));
 }
 
 /// The bytes that hexadecimal digits encode.
@@ -688,7 +713,7 @@ TEST(HeightMapFile, EveryPrefixIsReadOrRefused) {
   for (const auto& file : files) {
     const auto& name = file.first;  // no binding: lambdas of clang 14 capture none
     const auto& whole = file.second;
-    EXPECT_EQ(inputError([&] { readBytes(name, whole); }), "");
+    EXPECT_EQ(inputError([&] { readHeightMap(whole, name, {}); }), "");
     for (std::size_t n = 0; n < whole.size(); ++n) {
       // The last digits of a text may be missing without any trace.
       if (std::string(name) == "a.asc" && n + 3 >= whole.size()) continue;
@@ -697,7 +722,7 @@ TEST(HeightMapFile, EveryPrefixIsReadOrRefused) {
       // What a .tif says beside its heights may be lost, which is said.
       Warnings warnings;
       const std::string error =
-          inputError([&] { readBytes(name, whole.substr(0, n), {.warnings = &warnings}); });
+          inputError([&] { readHeightMap(whole.substr(0, n), name, {.warnings = &warnings}); });
       EXPECT_TRUE(!error.empty() || !warnings.empty()) << name << " " << n;
     }
   }
@@ -732,7 +757,7 @@ TEST(HeightMapFile, DamagedBytesAreReadOrRefusedButNothingElse) {
                       : "0123456789 \n-+.#e"[static_cast<unsigned char>(value) % 17];
     }
     try {
-      const HeightMap map = readBytes(name, bytes);
+      const HeightMap map = readHeightMap(bytes, name, {});
       ++read;
       ASSERT_TRUE(rangeOf(map.heights));
       for (const float h : map.heights.values()) ASSERT_FALSE(std::isinf(h));
