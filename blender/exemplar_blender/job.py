@@ -32,7 +32,8 @@ class Job:
         self.warnings, self.files = [], []
         self.error, self.status, self.pins = "", None, []
         self.log = os.path.join(self.folder, "log")
-        self._read, self._rest, self._started, self._asked = 0, b"", False, None
+        self._read, self._rest, self._started = 0, b"", False
+        self._asked, self._refused = None, False
         arguments = [str(word) for word in arguments] + ["--progress", "json"]
         self.line = [command] + arguments
         with open(self.log, "wb") as log:
@@ -71,7 +72,8 @@ class Job:
 
     @property
     def cancelled(self):
-        return self._asked is not None
+        """Whether the user has stopped it, however it ended then."""
+        return self._asked is not None and not self._refused
 
     def wait(self, every=0.02):
         """Waits for the end, as scripts do; whether it went well."""
@@ -119,6 +121,7 @@ class Job:
                 self.error = (f"exemplar {event.get('version', '')} speaks protocol "
                               f"{event.get('protocol')}, this add-on {PROTOCOL}: use the add-on "
                               "that came with the command")
+                self._refused = True
                 self.cancel()
         elif kind == "progress":
             self.stage = str(event["stage"])

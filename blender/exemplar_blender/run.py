@@ -108,7 +108,7 @@ class Run:
         """Takes the result of a job that has ended; whether there is one."""
         ended = self.job
         try:
-            if ended.cancelled and not ended.error.startswith("exemplar "):
+            if ended.cancelled:
                 settings.note(context.scene, text="cancelled")
                 self.report({"INFO"}, "Exemplar: cancelled")
                 return False

@@ -103,6 +103,7 @@ class Jobs(Folder):
         run = job.Job(self.script(events(dict(START, protocol=2)) + "exec sleep 10"), [])
         run.wait()
         self.assertIn("protocol 2", run.error)
+        self.assertFalse(run.cancelled)  # by the user
         run.kill()
 
     def test_know_what_is_no_exemplar(self):
