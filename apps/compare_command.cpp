@@ -39,7 +39,9 @@ void say(const ComparedRun& run, Terminal& terminal) {
   std::string text = "seed " + std::to_string(run.seed) + ": ";
   if (run.status == "complete") {
     text += readableSeconds(run.seconds) + ", lp_dense " + readable(run.lpDense) + ", coverage " +
-            readable(run.coverage);
+            readable(run.coverage) + ", multiscale " + readable(run.multiscale) +
+            ", rolled distance " + readable(run.rolled);
+    if (!run.doubts.empty()) text += "; doubts: " + joined(run.doubts, "and");
   } else {
     text += run.status + ": " + run.why;
   }
@@ -62,6 +64,14 @@ void compareEngines(const Options& options, Terminal& terminal) {
   comparison.firstSeed = options.firstSeed;
   comparison.seeds = options.seeds;
   comparison.scale = requestOf(options.settings).extent.scale;
+  comparison.compared = [&](const ComparedSeeds& seeds) {
+    terminal.say(seeds.engine, "Div of " + std::to_string(seeds.results) + " seeds " +
+                                   readable(seeds.diversity) + ", after the best roll " +
+                                   readable(seeds.rolledDiversity));
+    for (const auto& [a, b] : seeds.equal)
+      terminal.warn(seeds.engine + ": seeds " + std::to_string(a) + " and " + std::to_string(b) +
+                    " gave one result, moved or not; try other axes (`stationary`)");
+  };
   comparison.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path); };
   ReadOptions reading = readingOf(options.settings, Form::Field);
   reading.wanted = Extent{.scale = comparison.scale, .size = {}};

@@ -12,6 +12,7 @@
 #include "apps/help.h"
 #include "core/file.h"
 #include "core/json_text.h"
+#include "engine/described.h"
 #include "engine/json.h"
 #include "engine/model_request.h"
 #include "engine/output.h"
@@ -39,6 +40,42 @@ std::string percent(double share) {
   return text;
 }
 
+/// What the example is as distances, or as cells that are not empty.
+Json natureInfo(const Example& example, Terminal& terminal) {
+  const DescribedExample described = describe(example);
+  for (const auto& [label, text] : readable(described, example.form())) terminal.say(label, text);
+  const ExampleNature& nature = described.nature;
+  Json json{{"size", toJson(nature.size)},          {"cell", described.cell},
+            {"solid_share", nature.solidShare},     {"solid_from", toJson(nature.solid.begin)},
+            {"solid_to", toJson(nature.solid.end)}, {"free_standing", nature.freeStanding()}};
+  const char* names[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+  for (std::size_t side = 0; side < 6; ++side) {
+    const BoxSide kind = nature.sides[side];
+    json["sides"][names[side]] = {{"kind", kind == BoxSide::Air   ? "air"
+                                           : kind == BoxSide::Cut ? "cut"
+                                                                  : "solid"},
+                                  {"solid_share", nature.atSides[side]}};
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Json& along = json["axes"][std::string(1, "xyz"[axis])];
+    along["quarters"] = nature.quarters[axis];
+    along["fills_evenly"] = nature.fillsEvenly[static_cast<int>(axis)];
+    if (example.form() != Form::Field) continue;
+    along["stationary"] = described.stationary[static_cast<int>(axis)];
+    along["why"] = described.why[axis];
+  }
+  return json;
+}
+
+/// The same of what is read as distances.
+Json fieldInfo(const Options& options, Terminal& terminal) {
+  const Example example = readExample(options.example, readingOf(options.settings, Form::Field),
+                                      terminal.progress().part(0, 0.5));
+  for (const std::string& warning : example.warnings) terminal.warn(warning);
+  terminal.say("example", options.example + ": " + example.description);
+  return natureInfo(example, terminal);
+}
+
 /// A mesh without cells to cut it along: what is sound about it.
 Json meshInfo(const Options& options, Terminal& terminal) {
   const TriangleMesh mesh =
@@ -51,11 +88,9 @@ Json meshInfo(const Options& options, Terminal& terminal) {
   terminal.say("box", box);
   terminal.say("materials", withThousands(static_cast<long long>(mesh.materials.size())));
   terminal.say("pieces", "give --cell S to see the model pieces that a grid cuts it into");
-  return {{"triangles", health.triangles},
-          {"closed", health.closed()},
-          {"manifold", health.manifold()},
-          {"size", {size.x, size.y, size.z}},
-          {"materials", mesh.materials.size()}};
+  return {{"triangles", health.triangles},      {"closed", health.closed()},
+          {"manifold", health.manifold()},      {"size", {size.x, size.y, size.z}},
+          {"materials", mesh.materials.size()}, {"distances", fieldInfo(options, terminal)}};
 }
 
 /// Whether plain propagation can fail on the example's rules, as far as that can be proved.
@@ -108,6 +143,8 @@ Json labelInfo(const Options& options, Terminal& terminal) {
             {"labels_used_once", single},
             {"empty_share", static_cast<double>(empty) / cells}};
 
+  if (grid.size().z > 1) json["cells"] = natureInfo(example, terminal);
+
   // How many of all ordered pairs of labels the example allows: the fewer, the more is decided.
   const char* axes[] = {"x", "y", "z"};
   Json density;
@@ -155,9 +192,18 @@ void info(const Options& options, Terminal& terminal) {
   const bool print = options.json == "-";
   if (print) terminal.beQuiet();
   if (!options.json.empty() && !print) requireOutput(options.json, ".json");
-  const bool plainMesh =
-      sourceKind(options.example) == SourceKind::Mesh && !options.settings.has("cell");
-  const Json json = plainMesh ? meshInfo(options, terminal) : labelInfo(options, terminal);
+  const SourceKind kind = sourceKind(options.example);
+  const bool cut = options.settings.has("cell") || options.settings.has("field-block");
+  Json json;
+  if (kind == SourceKind::Mesh && !cut) {
+    json = meshInfo(options, terminal);
+  } else {
+    // What synthesis takes as distances is described as such first.
+    const bool distances =
+        kind == SourceKind::Scene || kind == SourceKind::Volume || kind == SourceKind::HeightMap;
+    if (distances) json["distances"] = fieldInfo(options, terminal);
+    json.update(labelInfo(options, terminal));
+  }
   const std::string text = jsonText(json, 2) + "\n";
   if (print) {
     std::fputs(text.c_str(), stdout);
@@ -172,10 +218,12 @@ void info(const Options& options, Terminal& terminal) {
 Command addInfoCommand(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("info", "Report an example's labels and which of them are neighbors");
+      app.add_subcommand("info",
+                         "Report what an example is: its box, solid, sides, along which "
+                         "axes its parts may move, its labels and their neighbors");
   command
       ->add_option("EXAMPLE", options->example,
-                   "a label grid (.txt .vox .vdb), a picture, a scene, or a mesh with --cell")
+                   "any example: a mesh, a volume, a height map, a scene, a label grid, a picture")
       ->required();
   command->add_flag("--list", options->list, "list every label with its number of cells");
   command->add_option("--json", options->json, "write it to this .json; - prints it");

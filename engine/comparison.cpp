@@ -7,6 +7,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "core/error.h"
@@ -20,6 +21,8 @@
 #include "engine/realize.h"
 #include "engine/words.h"
 #include "measure/mesh_result.h"
+#include "measure/novelty.h"
+#include "measure/rolled_distance.h"
 #include "mesh/footprint.h"
 #include "mesh/image.h"
 #include "sdf/vdb_file.h"
@@ -31,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What is kept of a run beside its figures; another number where that changes.
-constexpr int kParts = 3;
+constexpr int kParts = 4;
 
 /// What one engine made of the example with one seed.
 struct Run {
@@ -385,6 +388,7 @@ Json comparisonHead(const Example& example, const Vec3d& scale) {
         "model's results are whole blocks, so their size may differ by less than half a block.",
         "seconds are of synthesis alone, on all cores in use."}},
       {"figures", figureMeanings()},
+      {"seeds", Json::array()},
       {"runs", Json::array()}};
   return head;
 }
@@ -400,15 +404,80 @@ ComparedRun readable(const Json& run, bool again) {
     return result;
   }
   result.seconds = run.at("seconds").get<double>();
-  const Json& likeness = run.at("figures").at("likeness");
-  const auto figure = [&](const char* key) -> std::optional<double> {
-    const auto value = likeness.find(key);
-    if (value == likeness.end() || !value->is_number()) return std::nullopt;
+  const Json& figures = run.at("figures");
+  const auto figure = [&](const char* group, const char* key) -> std::optional<double> {
+    const auto all = figures.find(group);
+    if (all == figures.end()) return std::nullopt;
+    const auto value = all->find(key);
+    if (value == all->end() || !value->is_number()) return std::nullopt;
     return value->get<double>();
   };
-  result.lpDense = figure("lp_dense");
-  result.coverage = figure("coverage");
+  result.lpDense = figure("likeness", "lp_dense");
+  result.coverage = figure("likeness", "coverage");
+  result.multiscale = figure("likeness", "multiscale");
+  result.rolled = figure("novelty", "distance_to_rolled_example");
+  if (const auto doubts = figures.find("doubts"); doubts != figures.end())
+    for (const auto& [name, doubted] : doubts->items())
+      if (doubted.is_boolean() && doubted.get<bool>()) result.doubts.push_back(name);
   return result;
+}
+
+/// Results that are less than this apart after the best roll are one, moved.
+constexpr double kSameResult = 0.1;
+
+/// How far an engine's results are apart, by their files.
+ComparedSeeds comparedSeeds(const std::string& engine, const Json& runs, const fs::path& folder,
+                            const Progress& progress) {
+  ComparedSeeds compared;
+  compared.engine = engine;
+  std::vector<Occupancy> results;
+  std::vector<std::uint64_t> seeds;
+  for (const Json& run : runs) {
+    if (run.at("engine") != engine || run.at("status") != "complete") continue;
+    results.emplace_back(readVdb(folder / run.at("field").get<std::string>()));
+    seeds.push_back(run.at("seed").get<std::uint64_t>());
+    // Meshes that were sampled where nobody said their size may differ in it.
+    if (results.back().size() == results.front().size()) continue;
+    results.pop_back();
+    seeds.pop_back();
+  }
+  compared.results = static_cast<int>(results.size());
+  compared.diversity = diversity(results);
+  const double pairs =
+      std::max(1.0, static_cast<double>(results.size() * (results.size() - 1)) / 2);
+  double done = 0;
+  for (std::size_t a = 0; a < results.size(); ++a)
+    for (std::size_t b = a + 1; b < results.size(); ++b, ++done) {
+      const double apart = rolledDistance(results[a], results[b], {},
+                                          progress.part(done / pairs, (done + 1) / pairs))
+                               .distance;
+      compared.rolledDiversity += apart / pairs;
+      if (apart < kSameResult) compared.equal.emplace_back(seeds[a], seeds[b]);
+    }
+  return compared;
+}
+
+std::string twoDigits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+/// Says it in the comparison's JSON, and as a note of the page.
+void addSeeds(const ComparedSeeds& seeds, Json& comparison) {
+  Json equal = Json::array();
+  for (const auto& [a, b] : seeds.equal) equal.push_back({a, b});
+  comparison["seeds"].push_back({{"engine", seeds.engine},
+                                 {"results", seeds.results},
+                                 {"diversity", seeds.diversity},
+                                 {"rolled_diversity", seeds.rolledDiversity},
+                                 {"equal", equal}});
+  std::string note = seeds.engine + ": seeds differ in " + twoDigits(seeds.diversity) +
+                     " of their solid (Div), " + twoDigits(seeds.rolledDiversity) +
+                     " after the best roll of one onto the other.";
+  for (const auto& [a, b] : seeds.equal)
+    note += " Seeds " + std::to_string(a) + " and " + std::to_string(b) + " gave one result.";
+  comparison["notes"].push_back(note);
 }
 
 }  // namespace
@@ -484,6 +553,14 @@ void compare(const Example& example, const ComparisonOptions& options,
       run->erase("request");
       comparison["runs"].push_back(std::move(*run));
     }
+  }
+  for (const ComparedEngine& compared : options.engines) {
+    progress.report("comparing seeds", 0.96);
+    const ComparedSeeds seeds =
+        comparedSeeds(compared.name, comparison.at("runs"), folder, progress.part(0.96, 0.96));
+    if (seeds.results < 2) continue;
+    addSeeds(seeds, comparison);
+    if (options.compared) options.compared(seeds);
   }
   progress.report("writing the report", 0.96);
   writeFile(folder / "compare.json", jsonText(comparison, 2) + "\n");

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/progress.h"
@@ -29,6 +30,15 @@ struct ComparedEngine {
 /// on blocks of 8 samples that share 2. Throws `InputError`.
 ComparedEngine parseComparedEngine(const std::string& text);
 
+/// How far an engine's results are apart, for people.
+struct ComparedSeeds {
+  std::string engine;
+  int results = 0;
+  double diversity = 0, rolledDiversity = 0;  ///< `diversity`, and after the best roll
+  /// Pairs of seeds that are one result, moved: less than a tenth apart after the best roll.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> equal;
+};
+
 struct ComparisonOptions {
   std::filesystem::path folder;  ///< for meshes, pictures, compare.json and report.html
   std::vector<ComparedEngine> engines;
@@ -39,6 +49,8 @@ struct ComparisonOptions {
   MeshFileOptions mesh;
   /// Hears of files that were written, so that an interrupted comparison can say so.
   std::function<void(const std::filesystem::path&)> wrote;
+  /// Hears how far the seeds of each engine are apart, once all are made.
+  std::function<void(const ComparedSeeds&)> compared;
 };
 
 /// One run of a comparison, for people.
@@ -51,7 +63,9 @@ struct ComparedRun {
   std::string why;  ///< where it is not complete
   double seconds = 0;
   std::optional<double> lpDense, coverage;
-  bool again = false;  ///< it was made before
+  std::optional<double> multiscale, rolled;  ///< likeness at several scales, rolled distance
+  std::vector<std::string> doubts;           ///< what to be warned of
+  bool again = false;                        ///< it was made before
 };
 
 /// Runs every engine with every seed on the example, of the form Field; measures, draws and writes

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "engine/doubts.h"
 #include "engine/engines.h"
 #include "engine/realize.h"
 #include "engine/words.h"
@@ -62,6 +63,9 @@ void Engine::check(const Request& request, std::size_t examples) const {
   checkFurther(request, examples);
 }
 
+/// The share of the work that is done when a result is looked at for what is doubtful about it.
+constexpr double kUntilDoubts = 0.98;
+
 Result Engine::run(std::span<const Example> examples, const Request& request,
                    const Progress& progress) const {
   check(request, examples.size());
@@ -73,7 +77,11 @@ Result Engine::run(std::span<const Example> examples, const Request& request,
   }
   Result result;
   try {
-    result = synthesize(examples, request, progress);
+    result = synthesize(examples, request, progress.part(0, kUntilDoubts));
+    // An engine that had another make the result leaves the doubts to that.
+    if (result.form() == Form::Field && result.outcome == Outcome::Complete &&
+        result.engine.empty())
+      addDoubts(examples, request, result, progress.part(kUntilDoubts, 1));
   } catch (const Cancelled&) {
     result.outcome = Outcome::Cancelled;
     result.why = "cancelled";

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <optional>
+#include <vector>
 
 namespace exemplar {
 namespace {
@@ -61,7 +62,37 @@ void addLikeness(List& list, const Likeness& l) {
   list.add("pieces_depth", pieces(&Pieces::depth), "voxels below the surface where pieces begin");
   list.add("broken_share", pieces(&Pieces::brokenShare),
            "solid in pieces under half of the example's smallest; 0 is best");
-  list.add("windows", l.dense.windows, "windows drawn for lp_dense");
+}
+
+void addMultiscale(List& list, const std::optional<MultiscaleDistance>& m) {
+  list.add("multiscale", m ? std::optional(m->ratio) : std::nullopt,
+           "distance of shapes at several scales, over its floor; 1 for a fresh sample");
+  for (const int scale : {1, 2, 4, 8}) {
+    std::optional<double> ratio;
+    for (const ScaleDistance& at : m ? m->scales : std::vector<ScaleDistance>{})
+      if (at.scale == scale) ratio = at.ratio();
+    list.add("multiscale_" + std::to_string(scale), ratio,
+             scale == 1 ? "the same at samples of one voxel" : "at samples of that many voxels");
+  }
+}
+
+void addWholeness(List& list, const Wholeness& w) {
+  list.group("wholeness");
+  list.add("pieces", w.pieces, "connected components of 8 cells or more");
+  list.add("pieces_example", w.examplePieces, "the same in the example");
+  list.add("largest_piece", w.largestShare, "its share of the solid");
+  list.add("largest_piece_example", w.exampleLargestShare, "the same in the example");
+  list.add("floating", w.floatingShare, "share of the solid with nothing under it");
+  list.add("floating_example", w.exampleFloatingShare, "the same in the example");
+  list.add("flat", w.flatShare, "share of the surface in flat squares that face an axis");
+  list.add("flat_example", w.exampleFlatShare, "the same in the example");
+  list.add("sliced", w.slicedShare, "how much more of it there is; 0 is best");
+  list.add("open", w.openShare, "share of the surface cut by the box where the example has air");
+  list.add("tunnels", w.tunnels, "ways through, for each 10,000 faces of the surface");
+  list.add("tunnels_example", w.exampleTunnels, "the same in the example");
+  list.add("bubbles", w.bubbles, "pockets of air, for each 10,000 faces of the surface");
+  list.add("bubbles_example", w.exampleBubbles, "the same in the example");
+  list.add("layers", w.layers, "difference of the solid shares of each height; 0 is best");
 }
 
 void addNovelty(List& list, const Novelty& n) {
@@ -161,11 +192,34 @@ std::string text(const Figure& figure) {
 std::vector<Figure> figures(const Measures& measures) {
   List list;
   addLikeness(list, measures.likeness);
+  addMultiscale(list, measures.multiscale);
+  list.add("windows", measures.likeness.dense.windows, "windows drawn for lp_dense");
+  addWholeness(list, measures.wholeness);
   addNovelty(list, measures.novelty);
+  list.group("frontier");
+  list.add("likeness",
+           measures.multiscale ? std::optional(measures.multiscale->ratio) : std::nullopt,
+           "multiscale, to be read beside novelty: 2 or less is alike, 1.5 for a material");
+  list.add("novelty", measures.novelty.rolled.distance,
+           "distance_to_rolled_example: 0.2 or more is new");
+  list.add("kind",
+           measures.frontier ? std::optional(frontierName(*measures.frontier)) : std::nullopt,
+           "new_and_alike, copied, strange (new, not alike) or neither");
   addSeams(list, measures.seams);
   if (measures.mesh) addMesh(list, *measures.mesh);
   list.group("collapse");
   list.add("kind", collapseName(measures.collapse), "none, all_empty, all_solid or repeated");
+  list.group("doubts");
+  const char* const meanings[] = {"it is the example, at rest, moved or tiled",
+                                  "it fell into more pieces",
+                                  "parts have nothing under them",
+                                  "it is fuller or emptier by 15 %",
+                                  "flat cuts that the example does not have",
+                                  "the box cuts it where the example ends in air"};
+  for (std::size_t d = 0; d < kDoubts.size(); ++d) {
+    const bool doubted = std::ranges::find(measures.doubts, kDoubts[d]) != measures.doubts.end();
+    list.add(doubtName(kDoubts[d]), doubted, meanings[d]);
+  }
   return std::move(list.figures);
 }
 

@@ -18,8 +18,8 @@ namespace exemplar {
 /// One figure by name: what a table prints and JSON holds. `monostate` (null) is a figure that was
 /// not measured or has no meaning for this input.
 struct Figure {
-  std::string group;  ///< "likeness", "novelty", "seams", "mesh", "collapse",
-                      ///< "content", "layers", "terrain": an object in JSON
+  std::string group;  ///< "likeness", "wholeness", "novelty", "frontier", "seams", "mesh",
+                      ///< "collapse", "doubts", "content", "layers", "terrain": an object in JSON
   std::string key;    ///< lower case, unique within its group: "lp_dense"
   std::variant<std::monostate, bool, std::int64_t, double, std::string> value;
   std::string meaning;  ///< a few words for a table: what it is, and what is good

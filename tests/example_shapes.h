@@ -257,7 +257,7 @@ inline DistanceField arch(int side = 64, std::uint64_t seed = 0) {
 
 /// A boulder: one lump with facets, ridges and grain.
 inline DistanceField boulder(int side = 64, std::uint64_t seed = 0) {
-  const double s = side, middle = (s - 1) / 2, radius = s * 0.36;
+  const double s = side, middle = (s - 1) / 2, radius = s * 0.31;
   const Vec3i size{side, side, static_cast<int>(s * 0.9)};
   const Vec3d center{middle, middle, (size.z - 1) / 2.0};
   return shapeField(size, [&](const Vec3d& p) {

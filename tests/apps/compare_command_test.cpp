@@ -62,6 +62,21 @@ TEST_F(CompareCommand, RunsEveryEngineAndSaysWhatItFound) {
   }
 }
 
+TEST_F(CompareCommand, SaysHowFarSeedsAreApart) {
+  const CommandResult outcome = compare("--seeds 2 --engines blocks,model");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("after the best roll"));
+  const json seeds = read("compare.json").at("seeds");
+  ASSERT_EQ(seeds.size(), 2u);
+  for (const json& engine : seeds) {
+    EXPECT_EQ(engine.at("results"), 2);
+    EXPECT_LE(engine.at("rolled_diversity"), engine.at("diversity"));
+    // Two that are less than a tenth apart are warned of.
+    EXPECT_EQ(engine.at("equal").empty(), engine.at("rolled_diversity") >= 0.1);
+  }
+  EXPECT_THAT(readFile(file("report.html")), HasSubstr("after the best roll"));
+}
+
 TEST_F(CompareCommand, SaysWhyAnEngineMadeNothing) {
   // One block along x: the example does not show what could be beside it.
   ASSERT_EQ(compare("--seeds 1 --engines model --resolution 16").status, 0);

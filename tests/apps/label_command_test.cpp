@@ -366,6 +366,20 @@ TEST_F(LabelCommand, InfoReportsLabelsAndAdjacency) {
   EXPECT_DOUBLE_EQ(json["adjacency_density"]["x"], static_cast<double>(alongX) / 64);
 }
 
+TEST_F(LabelCommand, InfoSaysWhatAnExampleIs) {
+  writeMesh(folder_ / "m.ply", makeBox({{0, 0, 0}, {4, 3, 2}}));
+  const CommandResult result = run("info m.ply --resolution 24 --json i.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("it stands free"));
+  EXPECT_THAT(result.out, HasSubstr("along z"));
+  const auto json = nlohmann::json::parse(readFile(folder_ / "i.json"))["distances"];
+  EXPECT_TRUE(json["free_standing"]);
+  EXPECT_EQ(json["sides"]["+x"]["kind"], "air");
+  EXPECT_TRUE(json["axes"]["x"]["stationary"].is_boolean());
+  // Of 24 voxels along the longest side, some are air on either side.
+  EXPECT_GT(json["solid_share"], 0.1);
+}
+
 TEST_F(LabelCommand, LabelsAreRenderedAndMeshed) {
   ASSERT_EQ(run("render rings.txt -o p.png --size 64x48 --samples 1 -q").status, 0);
   ASSERT_EQ(run("mesh rings.txt -o m.obj -q").status, 0);
