@@ -21,6 +21,8 @@ enum Name : std::uint32_t {
   kPatchSearch = 0x0b72,   ///< PatchMatch
   kQuilt = 0x0b73,         ///< a start from large blocks
   kSeamRepair = 0x0b74,    ///< PatchMatch where a seam shows
+  kParts = 0x0b76,         ///< which parts of an object are exchanged
+  kSlices = 0x0b75,        ///< which slices of an object are repeated or left out
   // synth/model
   kLabelChoice = 0x4C424C31,  ///< which label a cell takes
   kBlockAccept = 0x4C424C32,  ///< whether a modified block is kept

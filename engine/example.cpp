@@ -79,7 +79,7 @@ void warnOfUnused(Example& example) {
                                ": `resolution` auto is for meshes; this example is read as usual");
   }
   use("padding", o.padding.has_value(), !labels && (mesh || scene));
-  use("scatter", o.scatter, !labels && mesh);
+  use("scatter", o.scatter, !labels && (mesh || kind == SourceKind::Volume));
   use("align", o.align != usual.align, !labels && mesh);
   use("scene-seed", o.sceneSeed.has_value(), scene);
   use("cell-size", o.cellSize.has_value(), heights);
@@ -154,8 +154,9 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       resolutionRow(),
       paddingRow(),
       settingRow<O>("scatter", &O::scatter,
-                    "a mesh is an object that stands alone, with air on all sides, also where it "
-                    "looks like a piece of something longer, as a wall does"),
+                    "copies of an object are strewn and grow together, in place of the object "
+                    "extended or varied as one; a mesh has air on all sides, also where it looks "
+                    "like a piece of something longer, as a wall does"),
       choiceRow<O, Align>(
           "align", [](O& o) -> Align& { return o.align; },
           "what is done about a mesh that lies turned about the vertical against its box: turn it "

@@ -91,7 +91,7 @@ struct ReadOptions {
   /// object with air around it, as it lies.
   std::optional<Extent> wanted;
   std::optional<Padding> padding;  ///< voxels of air around it, each 0..1024, in place of a choice
-  bool scatter = false;            ///< an object that stands alone: with air on all sides
+  bool scatter = false;            ///< strewn, not one object; a mesh has air on all sides
   Align align = Align::Auto;
 
   std::optional<std::uint64_t> sceneSeed;  ///< another sample of a scene's random process

@@ -19,6 +19,7 @@
 #include "sdf/mesh_to_sdf.h"
 #include "sdf/resample.h"
 #include "synth/geometry/blocks.h"
+#include "synth/geometry/objects/objects.h"
 #include "synth/geometry/quilting/quilting.h"
 #include "synth/geometry/stationary.h"
 #include "synth/geometry/voting/voting.h"
@@ -30,6 +31,9 @@ namespace {
 constexpr int kRegionPadding = 2;
 /// About what a sample of a result takes: the field, its origins, the search and the surface.
 constexpr double kBytesPerSample = 80;
+
+/// A variation of an object that differs from it by less, 1 - IoU, is hardly one.
+constexpr double kVaried = 0.12;
 
 Vec3i fieldSize(std::span<const Example> examples, const Request& request) {
   const Example& example = examples.front();
@@ -337,12 +341,61 @@ class GeometryEngine final : public FieldEngine {
  protected:
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {
+    if (isObject(examples, request)) return objectResult(examples, request, progress);
     if (const std::optional<Request> quilted = quiltingRequest(examples, request))
       return quiltingEngine().run(examples, *quilted, progress);
     return votingEngine().run(examples, request, progress);
   }
 
  private:
+  /// Whether the example is an object to be made more of as one.
+  static bool isObject(std::span<const Example> examples, const Request& request) {
+    const Example& example = examples.front();
+    return examples.size() == 1 && !example.reading.scatter && !example.goesOn.any() &&
+           !request.decided.keep && !request.guide && !request.periodic.any() &&
+           request.settings.given().empty() && isFreeStanding(example.field());
+  }
+  static Result objectResult(std::span<const Example> examples, const Request& request,
+                             const Progress& progress) {
+    ObjectOptions options;
+    options.size = fieldSize(examples, request);
+    options.seed = request.seed;
+    ObjectResult made = synthesizeObject(examples.front().field(), options, progress);
+    const bool same = options.size == examples.front().field().size();
+    Result result = resultOf(std::move(made.made), "object", examples);
+    const auto along = [&](Growth growth) {
+      Axes axes;
+      for (int axis = 0; axis < 3; ++axis)
+        axes[axis] = made.growth[static_cast<std::size_t>(axis)] == growth;
+      return axes;
+    };
+    std::string text = "stands alone";
+    const auto say = [&](Growth growth, const std::string& what) {
+      if (along(growth).any()) text += "; " + what + " along " + readableAxes(along(growth));
+    };
+    say(Growth::Fitted, "extended in its own structure");
+    say(Growth::Repeated, "repeated");
+    if (same) text += "; varied, with " + std::to_string(made.parts) + " of its parts exchanged";
+    result.notes.emplace_back("object", text);
+    result.statistics.emplace_back("parts_exchanged", static_cast<std::int64_t>(made.parts));
+    if (along(Growth::Repeated).any())
+      result.warnings.push_back(
+          "the object has no part along " + readableAxes(along(Growth::Repeated)) +
+          " that could be repeated within it, so variations of it stand beside each other; `scale` "
+          "1 along these axes gives a single one");
+    if (along(Growth::Padded).any())
+      result.warnings.push_back(
+          "the object has no part that could be repeated to make it higher, so there is air above "
+          "it; give `scale` 1 along z");
+    if (same && made.distance < kVaried)
+      result.warnings.push_back("the result is nearly the example (" +
+                                std::to_string(static_cast<int>(std::lround(100 * made.distance))) +
+                                " % of the solid differ): the object has few parts that can be "
+                                "exchanged or made longer and shorter; a larger `resolution` may "
+                                "show more of them");
+    return result;
+  }
+
   /// The request as quilting takes it; nothing where the example or the request does not suit it.
   static std::optional<Request> quiltingRequest(std::span<const Example> examples,
                                                 const Request& request) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -86,6 +87,37 @@ TEST(ExchangedHalves, IsMadeOfTwoHalvesExchanged) {
     }
     EXPECT_EQ(offsets.size(), 2u);
   }
+}
+
+TEST(ExchangedHalves, NoPartIsTwoFifthsWhereTheLargerIsDivided) {
+  const DistanceField example = balls({40, 38, 36}, 4, 1);
+  const PyramidLevel level = levelOf(example);
+  std::set<std::set<std::tuple<int, int, int>>> ways;
+  for (std::uint64_t seed = 0; seed < 9; ++seed) {
+    HalvesOptions asked = options(seed);
+    asked.divide = true;
+    const PyramidSources sources = exchangedHalves(level, asked);
+    ASSERT_FALSE(sources.empty());
+    std::map<std::tuple<int, int, int>, double> shares;
+    double all = 0;
+    for (std::size_t s = 0; s < sources.count(); ++s) {
+      const Vec3i p = sources.ijk(s);
+      if (!(p.x < 40 && p.y < 38 && p.z < 36)) continue;
+      const Vec3i d = offset(sources, p);
+      shares[{d.x, d.y, d.z}] += 1;
+      all += 1;
+    }
+    EXPECT_EQ(shares.size(), 3u);
+    std::set<std::tuple<int, int, int>> offsets;
+    for (const auto& [d, count] : shares) {
+      // .36 and a half of .05, or the rest times a half and .06; and a sample's rounding.
+      EXPECT_LT(count / all, 0.42);
+      EXPECT_GT(count / all, 0.2);
+      offsets.insert(d);
+    }
+    ways.insert(offsets);
+  }
+  EXPECT_GE(ways.size(), 7u);
 }
 
 TEST(ExchangedHalves, HoldsEachPartOnceButForTheOverlap) {
@@ -233,8 +265,10 @@ TEST(ExchangedHalves, SameSeedSameBytesAtAnyNumberOfThreads) {
   for (const DistanceField& example : {balls({24, 20, 22}, 4, 2), slope({32, 28, 24}, 5)}) {
     const PyramidLevel level = levelOf(example);
     PyramidSources one, eight;
-    withThreads(1, [&] { one = exchangedHalves(level, options(3)); });
-    withThreads(8, [&] { eight = exchangedHalves(level, options(3)); });
+    HalvesOptions asked = options(3);
+    asked.divide = true;
+    withThreads(1, [&] { one = exchangedHalves(level, asked); });
+    withThreads(8, [&] { eight = exchangedHalves(level, asked); });
     ASSERT_FALSE(one.empty());
     EXPECT_EQ(one, eight);
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,9 @@ namespace {
 
 /// Halves are cut at least this far from the example's ends, of its length.
 constexpr double kEnd = 0.25;
+/// Of three parts, the one that is not divided is this much of the result, more or less, and the
+/// other is divided not farther than this from its middle.
+constexpr double kUndivided = 0.36, kSpread = 0.05, kMiddle = 0.06;
 /// From this much on, voxels, both sides of a joint have no windows in common.
 constexpr double kFits = 0.5;
 /// What it costs besides that both sides of a joint differ by a voxel, in shares of the surface
@@ -40,6 +44,21 @@ struct Exchange {
     p[axis] += first ? at : at + overlap - n;
     p.z -= first ? liftFirst : liftSecond;
     return p;
+  }
+};
+
+/// What to make of the example: its parts exchanged across an axis, and the larger of the two parts
+/// divided and exchanged once more across another one. So no cyclic move of the example explains
+/// more than a part of it.
+struct Plan {
+  Exchange across;
+  std::optional<Exchange> within;
+  bool inFirst = false;  ///< `within` divides what comes first
+
+  Vec3i source(const Vec3i& size, const Vec3i& p) const {
+    const bool first = p[across.axis] < size[across.axis] - across.at - across.overlap / 2;
+    const Vec3i q = across.source(size, p);
+    return within && first == inFirst ? within->source(size, q) : q;
   }
 };
 
@@ -90,7 +109,7 @@ class Halves {
   bool possible() const { return !axes_.empty(); }
 
   /// What to try, one after the other.
-  std::vector<std::vector<Exchange>> plans(const Progress& progress) const {
+  std::vector<Plan> plans(const Progress& progress) const {
     std::vector<Exchange> fitting;
     std::vector<double> costs;
     for (const int axis : axes_) {
@@ -105,27 +124,38 @@ class Halves {
     }
     const std::size_t turn = options_.seed % good.size();
     const double place = farFromOthers(options_.seed / good.size());
-    std::vector<std::vector<Exchange>> plans;
+    std::vector<Plan> plans;
+    // Three parts, the largest of them less than two fifths.
+    for (std::size_t n = 0; options_.divide && n < good.size(); ++n) {
+      const Exchange& exchange = good[(turn + n) % good.size()];
+      const double undivided = kUndivided + kSpread * (place - 0.5);
+      const bool inFirst = (options_.seed / good.size()) % 2 == 0;
+      const double overlap = 0.5 * exchange.overlap / level_.source.parts[0].size()[exchange.axis];
+      const double at = (inFirst ? undivided : 1 - undivided) - overlap;
+      Plan plan{cutAt(exchange, at), std::nullopt, inFirst};
+      for (std::size_t m = 0; m < fitting.size(); ++m) {
+        const Exchange& other = fitting[(options_.seed / good.size() + m) % fitting.size()];
+        if (other.axis == exchange.axis) continue;
+        plan.within = cutAt(other, 0.5 + 2 * kMiddle * (place - 0.5));
+        keepInRoom(plan);
+        plans.push_back(plan);
+      }
+    }
     for (const double nearer : {0.0, 0.5, 1.0}) {
       for (std::size_t n = 0; n < good.size(); ++n) {
         const Exchange& exchange = good[(turn + n) % good.size()];
-        plans.push_back({cutAt(exchange, place + nearer * (0.5 - place))});
+        const double at = kEnd + (1 - 2 * kEnd) * (place + nearer * (0.5 - place));
+        plans.push_back({cutAt(exchange, at), std::nullopt, false});
       }
-    }
-    for (std::size_t n = 1; n < fitting.size(); ++n) {
-      Exchange other = cutAt(fitting[n], place);
-      other.liftFirst = other.liftSecond = 0;  // the box has room for the first's lift only
-      plans.push_back({cutAt(fitting[0], place), other});
     }
     return plans;
   }
 
-  PyramidSources sources(const std::vector<Exchange>& plan) const {
+  PyramidSources sources(const Plan& plan) const {
     PyramidSources sources(level_.target.framed());
     const CellBox part = level_.source.parts[0];
     parallelForEachCell(sources.size(), [&](const Vec3i& cell) {
-      Vec3i p = cell - part.begin;
-      for (const Exchange& exchange : plan) p = exchange.source(part.size(), p);
+      const Vec3i p = plan.source(part.size(), cell - part.begin);
       sources[cell] = level_.source.values.clamped(p + part.begin);
     });
     return sources;
@@ -161,10 +191,18 @@ class Halves {
     return {best, least};
   }
 
-  /// The exchange cut at a place from 0 to 1, as much of it lifted as is lowered.
+  /// Lifts of both exchanges add up: those within become smaller where the box has no room.
+  void keepInRoom(Plan& plan) const {
+    const int lift = plan.inFirst ? plan.across.liftFirst : plan.across.liftSecond;
+    for (int* within : {&plan.within->liftFirst, &plan.within->liftSecond}) {
+      *within = std::clamp(*within, -room_.down - lift, room_.up - lift);
+    }
+  }
+
+  /// The exchange cut at a share of the length, as much of it lifted as is lowered.
   Exchange cutAt(Exchange exchange, double place) const {
     const int n = level_.source.parts[0].size()[exchange.axis];
-    exchange.at = static_cast<int>(std::lround(n * (kEnd + (1 - 2 * kEnd) * place)));
+    exchange.at = static_cast<int>(std::lround(n * place));
     const int rise = exchange.liftSecond;  // of the second above the first; |rise| <= up + down
     const double share = 1 - static_cast<double>(exchange.at) / n;
     exchange.liftSecond =
@@ -226,7 +264,7 @@ PyramidSources exchangedHalves(const PyramidLevel& level, const HalvesOptions& o
   if (!halves.possible()) return {};
   PyramidSources farthest;
   double most = -1;
-  const std::vector<std::vector<Exchange>> plans = halves.plans(progress);
+  const std::vector<Plan> plans = halves.plans(progress);
   for (std::size_t n = 0; n < plans.size(); ++n) {
     // Each plan is as likely as not the last: it gets half of what is left to report.
     const int before = static_cast<int>(n);

@@ -21,6 +21,10 @@ struct HalvesOptions {
   /// Side of the windows of the example that should stay whole, samples, >= 2: those by which
   /// likeness is measured.
   int window = kLikenessWindow;
+  /// The larger part is divided across another axis, and its parts exchanged, too, where there is
+  /// one: no part is then more than about two fifths of the result, and no cyclic move of the
+  /// example explains more than one of them. Costs two thirds of a joint more.
+  bool divide = false;
   double novelty = kNovelty;  ///< plans are tried until one is as new as this; 0..1
   /// Moves joints to where both sides agree best, before that distance is taken; or nothing.
   std::function<void(PyramidSources&, const Progress&)> cut;

@@ -129,6 +129,7 @@ class Quilting {
     HalvesOptions halves;
     halves.seed = options_.seed;
     halves.stationary = stationary_;
+    halves.divide = true;
     halves.window = std::max(2, halves.window >> (levels_ - 1));
     halves.cut = [&](PyramidSources& sources, const Progress& cutting) {
       cutJoints(level_, shownBy(sources), halves.window, sources, cutting);

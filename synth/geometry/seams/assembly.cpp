@@ -26,8 +26,13 @@ constexpr int kWrapMargin = 12;
 class Assembly {
  public:
   Assembly(const std::vector<SourcePart>& parts, const PyramidLevel& level, const Vec3i& size,
-           const Array3D<std::uint8_t>* kept)
-      : parts_(parts), level_(level), size_(size), kept_(kept), sheet_(parts) {}
+           const Array3D<std::uint8_t>* kept, bool clearKept)
+      : parts_(parts),
+        level_(level),
+        size_(size),
+        kept_(kept),
+        whole_(clearKept ? nullptr : kept),
+        sheet_(parts) {}
 
   SynthesisResult run(const PyramidSources& sources, const Array3D<float>& target,
                       const Progress& progress) {
@@ -54,12 +59,12 @@ class Assembly {
     refineSeamsAround(copied, withoutMargins(level_, target), level_.target.periodic, seams,
                       origins, progress.part(0.1, 0.5));
 
-    dropBrokenPieces(sheet_.field, origins, {seams.usable, seams.fixed}, progress.part(0.5, 0.6));
+    dropBrokenPieces(sheet_.field, origins, {seams.usable, whole_}, progress.part(0.5, 0.6));
     SynthesisResult result;
     result.field = even(origins, seams, progress.part(0.6, 0.8));
     // What is thin may have come apart below the surface: that goes as well, and what little is
     // left after evening once more goes as it is copied.
-    BrokenPiecesOptions pieces{seams.usable, seams.fixed, &result.field.values};
+    BrokenPiecesOptions pieces{seams.usable, whole_, &result.field.values};
     if (dropBrokenPieces(sheet_.field, origins, pieces, progress.part(0.8, 0.85)) > 0) {
       result.field = even(origins, seams, progress.part(0.85, 0.95));
       const Origins before = origins;
@@ -112,6 +117,7 @@ class Assembly {
   const PyramidLevel& level_;
   Vec3i size_;
   const Array3D<std::uint8_t>* kept_;
+  const Array3D<std::uint8_t>* whole_;  ///< where nothing is cleared away; or none
   SourceSheet sheet_;
 };
 
@@ -120,8 +126,8 @@ class Assembly {
 SynthesisResult assemble(const std::vector<SourcePart>& parts, const PyramidLevel& level,
                          const PyramidSources& sources, const Array3D<float>& target,
                          const Vec3i& size, const Array3D<std::uint8_t>* kept,
-                         const Progress& progress) {
-  return Assembly(parts, level, size, kept).run(sources, target, progress);
+                         const Progress& progress, bool clearKept) {
+  return Assembly(parts, level, size, kept, clearKept).run(sources, target, progress);
 }
 
 }  // namespace exemplar

@@ -17,11 +17,12 @@ namespace exemplar {
 ///
 /// `size` is the result's, `target` what it should be near to, of the finest level's size as
 /// `sources` are. Where `kept` is not 0 (of the result's size, or none) samples stay. The origins
-/// name the examples as they were read, not turned. About O(samples near seams); the same bytes at
-/// any number of threads. Throws `Cancelled`.
+/// name the examples as they were read, not turned. `clearKept`: what has broken off is cleared
+/// away where it is kept, too. About O(samples near seams); the same bytes at any number of
+/// threads. Throws `Cancelled`.
 SynthesisResult assemble(const std::vector<SourcePart>& parts, const PyramidLevel& level,
                          const PyramidSources& sources, const Array3D<float>& target,
                          const Vec3i& size, const Array3D<std::uint8_t>* kept,
-                         const Progress& progress = {});
+                         const Progress& progress = {}, bool clearKept = false);
 
 }  // namespace exemplar

@@ -97,9 +97,11 @@ void cutSeams(const PyramidLevel& level, const Array3D<float>& target, PyramidSo
 }
 
 void cutJoints(const PyramidLevel& level, const Array3D<float>& target, int reach,
-               PyramidSources& sources, const Progress& progress) {
+               PyramidSources& sources, const Progress& progress,
+               const Array3D<std::uint8_t>* fixed) {
   const Array3D<std::uint8_t> air = level.airSamples();
   SeamOptions options = kCoarseSeams;
+  options.fixed = fixed;
   options.passes = 1;
   options.reach = reach;
   if (!air.empty()) options.air = &air;

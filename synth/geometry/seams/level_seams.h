@@ -28,7 +28,9 @@ void cutSeams(const PyramidLevel& level, const Array3D<float>& target, PyramidSo
               const Progress& progress = {});
 
 /// Moves the joints of large blocks by up to `reach` samples to where both sides agree best, once.
+/// Where `fixed` is not 0 (of the target's size with its margins, or none) samples stay.
 void cutJoints(const PyramidLevel& level, const Array3D<float>& target, int reach,
-               PyramidSources& sources, const Progress& progress = {});
+               PyramidSources& sources, const Progress& progress = {},
+               const Array3D<std::uint8_t>* fixed = nullptr);
 
 }  // namespace exemplar

@@ -1,0 +1,357 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/objects/objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "core/cells.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "sdf/resample.h"
+#include "synth/geometry/objects/part_exchange.h"
+#include "synth/geometry/objects/slice_path.h"
+#include "synth/geometry/pyramid/pyramid.h"
+#include "synth/geometry/seams/assembly.h"
+#include "synth/geometry/seams/level_seams.h"
+
+namespace exemplar {
+namespace {
+
+// What these constants trade and what chose them: docs/synthesis.md, "Constants".
+
+/// Where an object docks onto itself is found on a grid of at most so many slices.
+constexpr int kMostSlices = 128;
+/// Parts are exchanged on a grid of at most so many samples.
+constexpr std::int64_t kMostSamples = 1 << 20;
+/// An object is extended where the joints cost no more than this on the mean.
+constexpr double kDocks = 0.15;
+/// How far parts are moved at first, of the object's length, and what it costs that they are not
+/// (`variedPath`); by how much more each time, how often, and how many ways are tried each time.
+constexpr double kMotion = 0.03, kPull = 80, kFarther = 1.2, kHarder = 1.6;
+constexpr int kRises = 7;
+constexpr int kDraws = 4;
+/// How much more or less of solid a variation may have, of the example's.
+constexpr double kSolid = 0.06;
+/// A variation is compared with the example at every third sample along each axis, wherever that is
+/// laid within four samples.
+constexpr int kStride = 3;
+/// What it costs that a variation is not new at all, in misfits of joints.
+constexpr double kOld = 2;
+/// Joints move by up to this much to where both sides agree best, samples.
+constexpr int kJointReach = 6;
+/// Shares of the work.
+constexpr double kPathsDone = 0.2, kCutDone = 0.4;
+
+/// One axis: where the object docks onto itself, on a grid `shrink` times as coarse.
+struct Axis {
+  SliceDocking docking;
+  int shrink, length;
+
+  /// A path over samples from one over coarse slices.
+  SlicePath fine(SlicePath coarse, int made) const {
+    if (shrink == 1 || coarse.source.empty()) return coarse;
+    SlicePath path = coarse;
+    path.source.resize(static_cast<std::size_t>(made));
+    for (int i = 0; i < made; ++i) {
+      const auto at = std::min(static_cast<std::size_t>(i / shrink), coarse.source.size() - 1);
+      path.source[static_cast<std::size_t>(i)] =
+          std::min(length - 1, coarse.source[at] * shrink + i % shrink);
+    }
+    return path;
+  }
+};
+
+class Objects {
+ public:
+  Objects(const DistanceField& example, const ObjectOptions& options)
+      : options_(options),
+        example_(example.size()),
+        parts_{{example, 0, 0, {}}},
+        level_(makeLevel(parts_, 0, pyramidOptions(options))) {}
+
+  ObjectResult run(const Progress& progress) {
+    progress.report("finding where the object docks onto itself", 0);
+    findDocking(progress.part(0, kPathsDone / 4));
+    chooseGrowth();
+    exchange(progress.part(kPathsDone / 4, kPathsDone / 2));
+    layOut(progress.part(kPathsDone / 2, kPathsDone));
+    Array3D<float> target = shown();
+    cutJoints(level_, target, kJointReach, sources_, progress.part(kPathsDone, kCutDone), &fixed_);
+    pinSources(level_, sources_);
+    target = shown();
+    const Array3D<std::uint8_t> fixed = withoutMargins(level_, fixed_);
+    result_.made = assemble(parts_, level_, sources_, target, options_.size, &fixed,
+                            progress.part(kCutDone, 1), true);
+    return std::move(result_);
+  }
+
+ private:
+  static PyramidOptions pyramidOptions(const ObjectOptions& options) {
+    PyramidOptions pyramid;
+    pyramid.size = options.size;
+    pyramid.truncation = options.truncation;
+    return pyramid;
+  }
+
+  bool same() const { return options_.size == example_; }
+
+  void findDocking(const Progress& progress) {
+    const int longest = std::max({example_.x, example_.y, example_.z});
+    int shrink = 1;
+    while (longest / shrink > kMostSlices) shrink *= 2;
+    const DistanceField coarse =
+        shrink == 1 ? parts_[0].field : blockAverage(parts_[0].field, shrink);
+    for (int axis = 0; axis < 3; ++axis) {
+      axes_.push_back({SliceDocking(coarse, axis, progress), shrink, example_[axis]});
+    }
+  }
+
+  /// Exchanges parts of each copy, on a grid that is small enough.
+  void exchange(const Progress& progress) {
+    int shrink = 1;
+    while (volume(example_) / (static_cast<std::int64_t>(shrink) * shrink * shrink) > kMostSamples)
+      shrink *= 2;
+    const DistanceField coarse =
+        shrink == 1 ? parts_[0].field : blockAverage(parts_[0].field, shrink);
+    const int count = copies(0) * copies(1) * copies(2);
+    for (int copy = 0; copy < count; ++copy) {
+      const auto done = [&](int n) { return static_cast<double>(n) / count; };
+      PartExchangeOptions exchanging;
+      exchanging.novelty = options_.novelty;
+      exchanging.seed =
+          Random(options_.seed, stream::kParts).bits(static_cast<std::uint64_t>(copy));
+      exchanges_.push_back(
+          exchangeParts(coarse, exchanging, progress.part(done(copy), done(copy + 1))));
+    }
+    exchangeShrink_ = shrink;
+    result_.parts = exchanges_.front().parts;
+    result_.partDistance = exchanges_.front().distance;
+  }
+
+  /// How many copies stand beside each other along an axis.
+  int copies(int axis) const {
+    if (result_.growth[static_cast<std::size_t>(axis)] != Growth::Repeated) return 1;
+    return std::max(1, options_.size[axis] / example_[axis]);
+  }
+
+  void chooseGrowth() {
+    for (int axis = 0; axis < 3; ++axis) {
+      Growth& growth = result_.growth[static_cast<std::size_t>(axis)];
+      const int length = options_.size[axis];
+      growth = Growth::Varied;
+      if (length == example_[axis]) continue;
+      const SlicePath path = fitted(axis, length);
+      const bool docks = !path.source.empty() && path.meanCost <= kDocks;
+      if (docks || length < example_[axis]) {
+        growth = Growth::Fitted;
+      } else {
+        growth = axis == 2 ? Growth::Padded : Growth::Repeated;
+      }
+    }
+  }
+
+  SlicePath fitted(int axis, int length) const {
+    const Axis& along = axes_[static_cast<std::size_t>(axis)];
+    const std::uint64_t draw =
+        Random(options_.seed, stream::kSlices).bits(static_cast<std::uint64_t>(axis));
+    const int made = (length + along.shrink - 1) / along.shrink;
+    return along.fine(fittedPath(along.docking, made, draw), length);
+  }
+
+  SlicePath varied(int axis, int copy) const {
+    const Axis& along = axes_[static_cast<std::size_t>(axis)];
+    const std::uint64_t draw = Random(options_.seed, stream::kSlices)
+                                   .bits(static_cast<std::uint64_t>(axis + 3 * (copy + 1)),
+                                         static_cast<std::uint32_t>(draw_));
+    const double solid = along.docking.solidEnd() - along.docking.solidBegin();
+    return along.fine(variedPath(along.docking, motion_ * solid, pull_, draw), along.length);
+  }
+
+  /// Which sample of the example each sample along an axis is, of one copy.
+  std::vector<int> path(int axis, int copy) {
+    const Growth growth = result_.growth[static_cast<std::size_t>(axis)];
+    SlicePath found =
+        growth == Growth::Fitted ? fitted(axis, options_.size[axis]) : varied(axis, copy);
+    misfit_ += found.joints * found.meanCost;
+    if (!found.source.empty()) return found.source;
+    // Too short for a path: what is in the middle goes.
+    std::vector<int> cropped(static_cast<std::size_t>(options_.size[axis]));
+    for (std::size_t i = 0; i < cropped.size(); ++i) {
+      const int at = static_cast<int>(i), left = static_cast<int>(cropped.size() - i);
+      cropped[i] = at < left ? at : example_[axis] - left;
+    }
+    return cropped;
+  }
+
+  /// Lays each copy out.
+  void lay() {
+    sources_ = PyramidSources(level_.target.framed());
+    fixed_ = Array3D<std::uint8_t>(sources_.size());
+    const Vec3i before = level_.target.margin.before, first = level_.source.parts[0].begin;
+    const Vec3i tiles{copies(0), copies(1), copies(2)};
+    int copy = 0;
+    misfit_ = 0;
+    forEachCell(tiles, [&](const Vec3i& tile) {
+      std::array<std::vector<int>, 3> paths;
+      CellBox box;
+      Vec3i shift;
+      for (int axis = 0; axis < 3; ++axis) {
+        paths[static_cast<std::size_t>(axis)] = path(axis, copy);
+        const int n = options_.size[axis], count = tiles[axis];
+        const int length = static_cast<int>(paths[static_cast<std::size_t>(axis)].size());
+        box.begin[axis] = tile[axis] * n / count;
+        box.end[axis] = (tile[axis] + 1) * n / count;
+        shift[axis] = axis == 2 ? 0 : (box.end[axis] - box.begin[axis] - length) / 2;
+        // What lies around the result belongs to the outer copies.
+        if (tile[axis] == 0) box.begin[axis] = -before[axis];
+        if (tile[axis] == count - 1) box.end[axis] = sources_.size()[axis] - before[axis];
+      }
+      parallelForEachCell(box, [&](const Vec3i& p) {
+        Vec3i from;
+        for (int axis = 0; axis < 3; ++axis) {
+          const std::vector<int>& along = paths[static_cast<std::size_t>(axis)];
+          const int length = static_cast<int>(along.size());
+          int at = p[axis];
+          if (copies(axis) > 1 || result_.growth[static_cast<std::size_t>(axis)] == Growth::Padded)
+            at -= (axis == 2 ? 0 : box.begin[axis] < 0 ? 0 : box.begin[axis]) + shift[axis];
+          const int inside = std::clamp(at, 0, length - 1);
+          from[axis] = along[static_cast<std::size_t>(inside)] + at - inside;
+        }
+        const PartExchange& parts = exchanges_[static_cast<std::size_t>(copy)];
+        const Vec3i cell = parts.offsets.clamped(
+            {from.x / exchangeShrink_, from.y / exchangeShrink_, from.z / exchangeShrink_});
+        const Vec3i origin = from + parts.offsets[cell] * exchangeShrink_ + first;
+        sources_[p + before] = level_.source.values.clamped(origin);
+        fixed_[p + before] = parts.changed[cell];
+      });
+      ++copy;
+    });
+  }
+
+  /// How a layout of the example's own size compares with it.
+  struct Comparison {
+    double distance = 1;  ///< 1 - IoU, wherever the example is laid nearby
+    double solid = 1;     ///< of the result, over the example's
+  };
+  Comparison compared() const {
+    const Array3D<float>& source = level_.source.values;
+    std::vector<std::pair<Vec3i, bool>> samples;
+    std::int64_t here = 0, there = 0;
+    const Vec3i n = sources_.size();
+    for (int k = 0; k < n.z; k += kStride) {
+      for (int j = 0; j < n.y; j += kStride) {
+        for (int i = 0; i < n.x; i += kStride) {
+          const Vec3i p{i, j, k};
+          const bool solid = source[sources_[p]] < 0;
+          here += solid;
+          there += source[p] < 0;
+          samples.emplace_back(p, solid);
+        }
+      }
+    }
+    constexpr int kShifts[] = {0, -1, 1, -2, 2, -4, 4};
+    constexpr int kCount = std::size(kShifts);
+    std::vector<double> distance(static_cast<std::size_t>(kCount) * kCount * kCount);
+    parallelFor(0, distance.size(), 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t m = from; m < to; ++m) {
+        const int at = static_cast<int>(m);
+        const Vec3i shift{kShifts[at % kCount], kShifts[at / kCount % kCount],
+                          kShifts[at / kCount / kCount]};
+        std::int64_t both = 0, either = 0;
+        for (const auto& [p, solid] : samples) {
+          const Vec3i q = p + shift;
+          const bool example = source.contains(q) && source[q] < 0;
+          both += solid && example;
+          either += solid || example;
+        }
+        distance[m] =
+            1 - static_cast<double>(both) / static_cast<double>(std::max<std::int64_t>(1, either));
+      }
+    });
+    return {*std::min_element(distance.begin(), distance.end()),
+            static_cast<double>(here) / static_cast<double>(std::max<std::int64_t>(1, there))};
+  }
+
+  /// Parts are moved as little as it takes to be new, in the way that tears least.
+  void layOut(const Progress& progress) {
+    if (!same()) {
+      lay();
+      return;
+    }
+    PyramidSources best;
+    Array3D<std::uint8_t> fixed;
+    double least = 0;
+    bool found = false;
+    for (int rise = 0; rise < kRises && !found; ++rise) {
+      for (draw_ = 0; draw_ < kDraws; ++draw_) {
+        progress.check();
+        lay();
+        const Comparison comparison = compared();
+        const double uneven = std::abs(comparison.solid - 1) / kSolid;
+        const double old = std::max(0.0, 1 - comparison.distance / options_.novelty);
+        const bool good = old <= 0 && uneven <= 1;
+        const double score = misfit_ + kOld * old + std::max(0.0, uneven - 1);
+        if (!best.empty() && (found ? !good || score >= least : !good && score >= least)) continue;
+        found = found || good;
+        least = score;
+        best = sources_;
+        fixed = fixed_;
+        result_.distance = comparison.distance;
+      }
+      motion_ *= kFarther;
+      pull_ *= kHarder;
+    }
+    sources_ = std::move(best);
+    fixed_ = std::move(fixed);
+  }
+
+  Array3D<float> shown() const {
+    Array3D<float> target = gather(level_, sources_);
+    pinTarget(level_, static_cast<float>(options_.truncation), target);
+    return target;
+  }
+
+  const ObjectOptions& options_;
+  Vec3i example_;
+  std::vector<SourcePart> parts_;
+  PyramidLevel level_;
+  std::vector<Axis> axes_;
+  std::vector<PartExchange> exchanges_;  ///< of each copy
+  int exchangeShrink_ = 1;
+  double motion_ = kMotion, pull_ = kPull;
+  int draw_ = 0;
+  double misfit_ = 0;  ///< of all joints laid out
+  PyramidSources sources_;
+  Array3D<std::uint8_t> fixed_;  ///< samples where parts were exchanged
+  ObjectResult result_;
+};
+
+}  // namespace
+
+bool isFreeStanding(const DistanceField& example) {
+  const Vec3i n = example.size();
+  bool solid = false, cut = false;
+  forEachCell(n, [&](const Vec3i& p) {
+    if (!(example.values[p] < 0)) return;
+    solid = true;
+    cut = cut || p.x == 0 || p.y == 0 || p.x == n.x - 1 || p.y == n.y - 1 || p.z == n.z - 1;
+  });
+  return solid && !cut;
+}
+
+ObjectResult synthesizeObject(const DistanceField& example, const ObjectOptions& options,
+                              const Progress& progress) {
+  const DistanceField* examples[] = {&example};
+  PyramidOptions pyramid;
+  pyramid.size = options.size;
+  pyramid.truncation = options.truncation;
+  checkPyramid(examples, false, pyramid, std::nullopt);
+  return Objects(example, options).run(progress);
+}
+
+}  // namespace exemplar

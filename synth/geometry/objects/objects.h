@@ -1,0 +1,59 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/progress.h"
+#include "synth/geometry/synthesize.h"
+
+namespace exemplar {
+
+/// Whether an example is an object that stands alone: solid, with air all over the sides of its box
+/// but for the bottom, on which it may stand. O(samples).
+bool isFreeStanding(const DistanceField& example);
+
+/// What becomes of an object along an axis.
+enum class Growth {
+  Varied,    ///< it stays as long, its parts longer and shorter
+  Fitted,    ///< it is extended or shortened in its own structure
+  Repeated,  ///< it does not dock onto itself: variations of it stand beside each other
+  Padded,    ///< the same, but upward, where nothing can stand: there is air above it
+};
+
+struct ObjectOptions {
+  Vec3i size{0, 0, 0};  ///< of the result, samples; each component >= 1
+  std::uint64_t seed = 0;
+  /// The least distance (1 - IoU) to the example of a result of its own size, where the object's
+  /// parts can be moved so far without tearing; 0..1.
+  double novelty = 0.22;
+  double truncation = 4;  ///< distances count up to here, voxels; > 0
+};
+
+struct ObjectResult {
+  SynthesisResult made;
+  std::array<Growth, 3> growth{};  ///< along each axis
+  int parts = 0;                   ///< that were exchanged, of the first copy
+  double partDistance = 0;
+  /// The distance (1 - IoU) to the example in place, of a result of its own size, before joints are
+  /// cut; else 0.
+  double distance = 0;
+};
+
+/// More of an object that stands alone, as an object: its ends, its ground, and how its parts hang
+/// together stay.
+///
+/// A result of its own size is a variation of it: along each axis, parts become longer and shorter
+/// where the object docks onto itself (`variedPath`), as far as it takes to be new. Along an axis
+/// along which the result is longer or shorter, the object is extended or shortened where it docks
+/// onto itself (`fittedPath`); where it does not, variations of it stand beside each other. Joints
+/// are then cut where both sides agree best, as everywhere (`assemble`).
+///
+/// Memory about 120 bytes a sample of the result. The same bytes at any number of threads. Throws
+/// `InputError` for options out of range, `Cancelled`.
+ObjectResult synthesizeObject(const DistanceField& example, const ObjectOptions& options,
+                              const Progress& progress = {});
+
+}  // namespace exemplar
