@@ -34,8 +34,12 @@ void addDoubts(std::span<const Example> examples, const Request& request, Result
   result.statistics.emplace_back("pieces_example", signs.wholeness.examplePieces);
   result.statistics.emplace_back("floating", signs.wholeness.floatingShare);
   result.statistics.emplace_back("sliced", signs.wholeness.slicedShare);
-  for (const Doubt doubt : doubtsOf(signs))
+  for (const Doubt doubt : doubtsOf(signs)) {
+    // What leaves a result that tiles at one side goes on at the other.
+    const bool aroundTheBox = doubt == Doubt::Open || doubt == Doubt::Pieces;
+    if (request.periodic.any() && aroundTheBox) continue;
     result.warnings.push_back(doubtSentence(doubt, signs) + "; " + remedyOf(doubt));
+  }
 }
 
 }  // namespace exemplar

@@ -18,6 +18,7 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 Example exampleOf(DistanceField field) {
   Example example;
@@ -52,6 +53,14 @@ TEST(AddDoubts, LeavesAloneWhatIsMeantToBeOtherwise) {
   Request kept;
   kept.decided.keep = Source("keep.vdb");
   EXPECT_THAT(warnings(vase, vase, kept), IsEmpty());
+}
+
+TEST(AddDoubts, LeavesAResultThatTilesItsOpenSides) {
+  const DistanceField vase = testing::vase(48);
+  Request tiling;
+  tiling.periodic = {true, true, false};
+  EXPECT_THAT(warnings(vase, testing::cutByBox(vase), tiling),
+              Not(Contains(HasSubstr("`padding`"))));
 }
 
 TEST(AddDoubts, OfARunAreFoundOnce) {
