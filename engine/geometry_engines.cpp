@@ -381,7 +381,7 @@ class GeometryEngine final : public FieldEngine {
     if (along(Growth::Repeated).any())
       result.warnings.push_back(
           "the object has no part along " + readableAxes(along(Growth::Repeated)) +
-          " that could be repeated within it, so variations of it stand beside each other; `scale` "
+          " that could be repeated within it, so variations of it are placed side by side; `scale` "
           "1 along these axes gives a single one");
     if (along(Growth::Padded).any())
       result.warnings.push_back(

@@ -133,7 +133,7 @@ class Objects {
     result_.partDistance = exchanges_.front().distance;
   }
 
-  /// How many copies stand beside each other along an axis.
+  /// How many copies are placed side by side along an axis.
   int copies(int axis) const {
     if (result_.growth[static_cast<std::size_t>(axis)] != Growth::Repeated) return 1;
     return std::max(1, options_.size[axis] / example_[axis]);

@@ -19,8 +19,8 @@ bool isFreeStanding(const DistanceField& example);
 enum class Growth {
   Varied,    ///< it stays as long, its parts longer and shorter
   Fitted,    ///< it is extended or shortened in its own structure
-  Repeated,  ///< it does not dock onto itself: variations of it stand beside each other
-  Padded,    ///< the same, but upward, where nothing can stand: there is air above it
+  Repeated,  ///< it does not dock onto itself: variations of it are placed side by side
+  Padded,    ///< the same, but upward, where nothing can be placed: there is air above it
 };
 
 struct ObjectOptions {
@@ -48,7 +48,7 @@ struct ObjectResult {
 /// A result of its own size is a variation of it: along each axis, parts become longer and shorter
 /// where the object docks onto itself (`variedPath`), as far as it takes to be new. Along an axis
 /// along which the result is longer or shorter, the object is extended or shortened where it docks
-/// onto itself (`fittedPath`); where it does not, variations of it stand beside each other. Joints
+/// onto itself (`fittedPath`); where it does not, variations of it are placed side by side. Joints
 /// are then cut where both sides agree best, as everywhere (`assemble`).
 ///
 /// Memory about 120 bytes a sample of the result. The same bytes at any number of threads. Throws

@@ -27,7 +27,7 @@ struct PartExchange {
 };
 
 /// Exchanges parts of an object that stands alone with others of its parts, with what is beside
-/// them, or with nothing: a branch grows elsewhere, a house stands where another one stood.
+/// them, or with nothing: a branch grows elsewhere, a house takes the place of another.
 ///
 /// Laid over itself with an offset, the object agrees with itself in places: there it docks
 /// (Bokeloh, Wand, Seidel: "A connection between partial symmetry and inverse procedural modeling",
