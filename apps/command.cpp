@@ -31,6 +31,12 @@ std::string helpOf(const Setting& setting) {
   return spelledAsOptions(text);
 }
 
+/// "-s,--scale": the names of a setting's option.
+std::string namesOf(const std::string& key) {
+  if (key == "scale" || key == "resolution") return "-" + key.substr(0, 1) + "," + optionOf(key);
+  return optionOf(key);
+}
+
 std::string valueOf(const Setting& setting) {
   if (setting.type != SettingType::Choice)
     return std::string(typeName(setting.type)) + (setting.repeats ? " ..." : "");
@@ -85,13 +91,13 @@ void SettingOptions::install(CLI::App& command, Settings& into) const {
     if (option.setting.type == SettingType::Flag) {
       command
           .add_flag_callback(
-              optionOf(key), [&into, key] { into.set(key, true); }, option.help)
+              namesOf(key), [&into, key] { into.set(key, true); }, option.help)
           ->group(option.group);
       continue;
     }
     command
         .add_option(
-            optionOf(key),
+            namesOf(key),
             [&into, key](const CLI::results_t& texts) {
               for (const std::string& text : texts) into.add(key, text);
               return true;
@@ -123,9 +129,11 @@ void addPictureOptions(CLI::App& command, PictureOptions& options, const std::st
   command
       .add_option("--view", options.view,
                   "iso, front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees")
+      ->option_text("VIEW")
       ->capture_default_str()
       ->group("Picture");
-  command.add_option(size, options.size, "the picture's WIDTHxHEIGHT in pixels")
+  command.add_option(size, options.size, "the picture's size in pixels")
+      ->option_text("WIDTHxHEIGHT")
       ->capture_default_str()
       ->group("Picture");
   command.add_option("--samples", options.samples, "rays a pixel")

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/help.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "engine/engine.h"
@@ -61,19 +62,37 @@ bool goesOn(const std::string& word) {
   return (numbers || pair) && !std::filesystem::exists(word, error);
 }
 
+/// Whether a word is a number and nothing else: "2", "0.5"; no file is named like it.
+bool isNumber(const std::string& word) {
+  std::error_code error;
+  return !word.empty() && word.find_first_not_of("0123456789.") == word.npos &&
+         !std::filesystem::exists(word, error);
+}
+
 /// The command's words, with an option that may be repeated once before each of its values:
-/// "--pin A B" is "--pin A --pin B".
+/// "--pin A B" is "--pin A --pin B"; and with three numbers as one value where there is one number
+/// an axis: "--scale 2 2 1" is "--scale 2,2,1".
 std::vector<std::string> spelledOut(std::span<char*> words) {
-  std::set<std::string> repeated;
+  using exemplar::SettingType;
+  std::set<std::string> repeated, perAxis{"-s"};
   const auto note = [&](std::span<const exemplar::Setting> settings) {
-    for (const exemplar::Setting& setting : settings)
+    for (const exemplar::Setting& setting : settings) {
       if (setting.repeats) repeated.insert("--" + setting.key);
+      if (setting.type == SettingType::Size || setting.type == SettingType::Lengths)
+        perAxis.insert("--" + setting.key);
+    }
   };
   note(exemplar::requestSettings());
   for (const exemplar::Engine* engine : exemplar::engines()) note(engine->settings());
   std::vector<std::string> all;
   for (std::size_t w = 1; w < words.size(); ++w) {
     all.emplace_back(words[w]);
+    if (perAxis.contains(all.back()) && w + 3 < words.size() && isNumber(words[w + 1]) &&
+        isNumber(words[w + 2]) && isNumber(words[w + 3])) {
+      all.push_back(std::string(words[w + 1]) + "," + words[w + 2] + "," + words[w + 3]);
+      w += 3;
+      continue;
+    }
     if (!repeated.contains(all.back()) || w + 1 == words.size()) continue;
     const std::string option = all.back();
     all.emplace_back(words[++w]);
@@ -90,19 +109,26 @@ std::vector<std::string> spelledOut(std::span<char*> words) {
 int main(int argc, char** argv) {
   CLI::App app{
       "exemplar: give it one example; get as much more of it as you want.\n"
-      "An example is a mesh (.obj .ply .stl .off .glb), a volume (.vdb), a height map (.png .pgm\n"
-      ".asc), a grid of labels (.txt .vox) or a scene (.toml). 'exemplar COMMAND --help' lists a\n"
-      "command's options."};
+      "An example is a mesh (.obj .ply .stl .off .glb .gltf), a volume (.vdb), a height\n"
+      "map (.png .pgm .asc), a grid of labels (.txt .vox), a picture (.jpg) or a scene\n"
+      "(.toml, or its name). 'exemplar COMMAND --help' lists a command's options.\n\n"
+      "  exemplar synth wall.obj -o longer.glb --scale 3,1,1\n"
+      "  exemplar synth chainmail -o more.glb --seed 7 --preview more.png --open\n"
+      "  exemplar compare rock.glb -o report\n"};
   app.name("exemplar");
   app.set_version_flag("--version", EXEMPLAR_VERSION);
   app.require_subcommand(1);
-  app.get_formatter()->column_width(34);
+  app.formatter(exemplar::helpFormatter());
 
   using namespace exemplar;
   const std::vector<Command> commands{
       addSynthCommand(app),   addSdfCommand(app),    addMeshCommand(app),     addRenderCommand(app),
       addMeasureCommand(app), addSceneCommand(app),  addVoxelizeCommand(app), addInfoCommand(app),
       addCompareCommand(app), addEnginesCommand(app)};
+  if (argc == 1) {
+    std::cout << app.help();
+    return kDone;
+  }
   try {
     std::vector<std::string> words =
         spelledOut(std::span<char*>(argv, static_cast<std::size_t>(argc)));
@@ -119,8 +145,9 @@ int main(int argc, char** argv) {
       json = json || word == "--progress=json" ||
              (word == "json" && std::string_view(words[w - 1]) == "--progress");
     }
+    const std::vector<std::string> given(words.begin() + 1, words.end());
     Terminal(json ? ProgressStyle::Json : ProgressStyle::None, false)
-        .fail(std::string(e.what()) + " (see exemplar --help)", kWrongInput);
+        .fail(explained(app, given, e.what()), kWrongInput);
     return kWrongInput;
   }
   for (const Command& command : commands) {

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -32,10 +33,34 @@ struct Options {
   std::string engine, preview, stats, origins, report, layers;
   Settings settings;
   PictureOptions picture;
+  int results = 1;
+  bool open = false;
 };
+
+constexpr int kMostResults = 1000;
+
+/// The options of the nth of several results: `out.glb` becomes `out_000.glb`, and so do the files
+/// that go with it.
+Options numbered(Options options, int n) {
+  if (options.results == 1) return options;
+  char number[16];
+  std::snprintf(number, sizeof number, "_%03d", n);
+  const auto add = [&](std::string& name) {
+    const std::filesystem::path path(name);
+    if (!name.empty())
+      name = (path.parent_path() / (path.stem().string() + number + path.extension().string()))
+                 .string();
+  };
+  for (std::string& output : options.outputs) add(output);
+  for (std::string* name :
+       {&options.preview, &options.stats, &options.origins, &options.report, &options.layers})
+    add(*name);
+  return options;
+}
 
 /// What the command line asks for, checked before any file is read.
 struct Plan {
+  Progress progress;  ///< of the whole run, reading included
   const Engine* engine;
   std::vector<Source> sources;
   ReadOptions reading;
@@ -107,7 +132,8 @@ Plan planOf(const Options& options) {
   checkSettings(*plan.engine, settings);
 
   surfaceSettings(form).apply(settings, plan.surface);
-  checkOutputs(options, form, plan.surface.lods);
+  for (int n = 0; n < options.results; ++n)
+    checkOutputs(numbered(options, n), form, plan.surface.lods);
   if (!options.layers.empty() && form != Form::Map)
     throw InputError("--write-layers: only the engine layered has layers; leave it out");
   if (!options.report.empty() && form == Form::Map)
@@ -150,7 +176,7 @@ void checkExtent(const Options& options, const Plan& plan, std::span<const Examp
 
 std::vector<Example> read(const Options& options, const Plan& plan, Terminal& terminal) {
   std::vector<Example> examples =
-      readExamples(plan.sources, plan.reading, terminal.progress().part(0, 0.15));
+      readExamples(plan.sources, plan.reading, plan.progress.part(0, 0.15));
   for (const Example& example : examples) {
     terminal.say("example", example.name() + ": " + example.description);
     for (const std::string& warning : example.warnings) terminal.warn(warning);
@@ -161,7 +187,7 @@ std::vector<Example> read(const Options& options, const Plan& plan, Terminal& te
 
 /// A complete result; with `detail`, of `examples` that are sampled more finely, too.
 Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& terminal) {
-  const Progress& progress = terminal.progress();
+  const Progress& progress = plan.progress;
   Result result = plan.engine->run(examples, plan.request, progress.part(0.15, 0.6));
   if (result.outcome == Outcome::Cancelled) throw Cancelled();
   if (result.outcome != Outcome::Complete) throw Unfinished(result.why, result.conflict);
@@ -225,7 +251,7 @@ Vec3d scaleOf(const Plan& plan, const Result& result, std::span<const Example> e
 }
 
 void writeStats(const Options& options, const Result& result, const std::optional<Surface>& surface,
-                const Times& times, const Terminal& terminal) {
+                const Times& times, const Progress& progress, const Terminal& terminal) {
   Json stats = {{"example", options.examples.front()},
                 {"output", options.outputs.front()},
                 {"outputs", options.outputs},
@@ -235,8 +261,8 @@ void writeStats(const Options& options, const Result& result, const std::optiona
   stats.update(toJson(result.statistics));
   if (surface) stats["mesh"] = toJson(surface->health);
   if (result.layers) {
-    stats.update(toJson(figures(measureLayers(*result.exampleLayers, false, *result.layers,
-                                              terminal.progress().part(0.95, 1)))));
+    stats.update(toJson(figures(
+        measureLayers(*result.exampleLayers, false, *result.layers, progress.part(0.95, 1)))));
   }
   stats["warnings"] = terminal.warnings();
   const double total = times.total.seconds();
@@ -252,7 +278,7 @@ void writeStats(const Options& options, const Result& result, const std::optiona
 void write(const Options& options, Plan plan, std::span<const Example> examples,
            const Result& result, const std::optional<Surface>& surface, const Times& times,
            Terminal& terminal) {
-  const Progress& progress = terminal.progress();
+  const Progress progress = plan.progress;
   plan.output.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path, "frame"); };
   const auto say = [&](const Written& written) {
     if (result.laterFrames.empty() || lowerExtension(written.path) == ".gif") {
@@ -298,9 +324,32 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
   }
   for (const std::string& warning : *plan.picture.warnings) terminal.warn(warning);
   if (!options.stats.empty()) {
-    writeStats(options, result, surface, times, terminal);
+    writeStats(options, result, surface, times, progress, terminal);
     terminal.wrote("stats", options.stats, options.stats);
   }
+}
+
+/// One result of examples that were read.
+void makeOne(const Options& options, const Plan& plan, std::vector<Example> examples, Times& times,
+             Terminal& terminal) {
+  const Result result = synthesize(plan, examples, terminal);
+  times.synthesis = times.total.seconds() - times.read;
+  terminal.say("result", readableExtent(result) + " in " + readableSeconds(times.synthesis) +
+                             ", seed " + std::to_string(result.seed));
+
+  const std::optional<Surface> surface =
+      surfaceFor(options, plan, result, examples, plan.progress.part(0.7, 0.85));
+  if (surface && surface->contoured > surface->health.triangles) {
+    terminal.say("simplified", withThousands(surface->contoured) + " triangles to " +
+                                   withThousands(surface->health.triangles));
+  }
+  write(options, plan, examples, result, surface, times, terminal);
+}
+
+/// What a person wants to look at: the page, the picture, or the result.
+std::string shownFirst(const Options& options) {
+  if (!options.report.empty()) return options.report;
+  return options.preview.empty() ? options.outputs.front() : options.preview;
 }
 
 /// The main path, from file to file.
@@ -309,26 +358,27 @@ void synth(const Options& options, Terminal& terminal) {
   Plan plan = planOf(options);
   Warnings ofPictures;
   plan.picture.warnings = plan.output.picture.warnings = &ofPictures;
+  const Progress whole = terminal.progress();
+  const auto share = [&](int n) {
+    return whole.part(static_cast<double>(n) / options.results, (n + 1.0) / options.results);
+  };
 
-  std::vector<Example> examples = read(options, plan, terminal);
+  plan.progress = share(0);
+  const std::vector<Example> examples = read(options, plan, terminal);
   times.read = times.total.seconds();
-
-  const Result result = synthesize(plan, examples, terminal);
-  times.synthesis = times.total.seconds() - times.read;
-  terminal.say("result", readableExtent(result) + " in " + readableSeconds(times.synthesis) +
-                             ", seed " + std::to_string(result.seed));
-
-  const std::optional<Surface> surface =
-      surfaceFor(options, plan, result, examples, terminal.progress().part(0.7, 0.85));
-  if (surface && surface->contoured > surface->health.triangles) {
-    terminal.say("simplified", withThousands(surface->contoured) + " triangles to " +
-                                   withThousands(surface->health.triangles));
+  const std::uint64_t seed = plan.request.seed;
+  for (int n = 0; n < options.results; ++n) {
+    plan.progress = share(n);
+    plan.request.seed = seed + static_cast<std::uint64_t>(n);
+    Times ofThis;
+    makeOne(numbered(options, n), plan, examples, n == 0 ? times : ofThis, terminal);
   }
-  write(options, plan, examples, result, surface, times, terminal);
 
   terminal.say("done", readableSeconds(times.total.seconds()) + ", " +
                            readableBytes(static_cast<double>(peakResidentBytes())) +
                            " of memory at its peak");
+  if (options.open && !openForUser(shownFirst(numbered(options, 0))))
+    terminal.warn("--open: nothing opens files here (xdg-open was not found)");
 }
 
 void addSettings(CLI::App& command, Settings& into) {
@@ -355,6 +405,11 @@ void addSettings(CLI::App& command, Settings& into) {
 Command addSynthCommand(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("synth", "Synthesize more of an example");
+  command->footer(
+      "Examples:\n"
+      "  exemplar synth wall.obj -o longer.glb --scale 3,1,1\n"
+      "  exemplar synth terrain.asc -o more.asc --seed 7 -n 4\n"
+      "  exemplar synth castle -o castle.glb --size 40,40,7 --preview castle.png");
   command
       ->add_option("EXAMPLE", options->examples,
                    "a mesh, a volume, a height map, a grid of labels, a picture or a scene (see "
@@ -391,6 +446,16 @@ Command addSynthCommand(CLI::App& app) {
       "--write-layers", options->layers,
       "also write which layer shows at each pixel, of the result and of the example "
       "(NAME.png, NAME_example.png): to edit them and give them back");
+  command
+      ->add_option("-n,--results", options->results,
+                   "so many results, of this seed and those after it: out_000.glb, out_001.glb, "
+                   "... (1)")
+      ->check(CLI::Range(1, kMostResults))
+      ->option_text("N");
+  command->add_flag("--open", options->open,
+                    "then open it as the desktop does: the page, the picture, or the result");
+  command->set_help_all_flag("--help-all",
+                             "the same, with the options that only some engines have");
   addSettings(*command, options->settings);
   addPictureOptions(*command, options->picture, "--picture-size");
   return {command, addCommonOptions(*command),

@@ -3,6 +3,10 @@
 
 #include "engine/source.h"
 
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
 #include "core/error.h"
 #include "core/file.h"
 #include "mesh/mesh_file.h"
@@ -53,6 +57,14 @@ bool holdsLabels(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+Source::Source(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code error;
+  if (path_.empty() || path_.has_extension() || path_.has_parent_path() ||
+      std::filesystem::exists(path_, error))
+    return;
+  if (std::ranges::count(bundledScenes(), path_.string()) > 0) path_ = findScene(path_.string());
+}
 
 SourceKind sourceKind(const Source& source) {
   if (source.inMemory<TriangleMesh>()) return SourceKind::Mesh;

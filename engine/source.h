@@ -28,10 +28,10 @@ class Source {
       std::variant<std::monostate, std::string, TriangleMesh, DistanceField, LabelGrid, HeightMap>;
 
   Source() = default;
-  /// A file, or the name of a bundled scene ("scenes/chainmail.toml").
-  Source(std::filesystem::path path) : path_(std::move(path)) {}
-  Source(const char* path) : path_(path) {}
-  Source(const std::string& path) : path_(path) {}
+  /// A file, or the name of a bundled scene ("chainmail") where there is no file called so.
+  Source(std::filesystem::path path);
+  Source(const char* path) : Source(std::filesystem::path(path)) {}
+  Source(const std::string& path) : Source(std::filesystem::path(path)) {}
   /// What a file of this name would hold; the ending says the format, any but .vdb.
   static Source ofBytes(std::string bytes, std::filesystem::path name) {
     return Source(std::move(name), Content(std::move(bytes)));

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include "core/file.h"
 #include "mesh/mesh_file.h"
@@ -17,6 +18,7 @@ namespace exemplar {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 struct BadInput {
   const char* name;       ///< of the test
@@ -90,9 +92,17 @@ TEST(BadCommand, MissingFileIsNamed) {
 
 TEST(BadCommand, NoCommandAndUnknownOptionAreStatusTwo) {
   const TestFolder folder;
-  for (const auto& [arguments, says] : {std::pair{"", "A subcommand is required"},
-                                        {"frobnicate", "A subcommand is required"},
-                                        {"synth e.obj -o o.obj --frobnicate", "--frobnicate"}}) {
+  for (const auto& [arguments, says] :
+       {std::pair{"--quiet", "A subcommand is required"},
+        {"frobnicate", "frobnicate is no command (see exemplar --help)"},
+        {"sinth e.obj -o o.obj", "did you mean exemplar synth?"},
+        {"wall.obj", "exemplar synth wall.obj -o wall_more.glb"},
+        {"synth e.obj -o o.obj --frobnicate", "--frobnicate"},
+        {"synth e.obj -o o.obj --sacle 2",
+         "--sacle: exemplar synth has no such option; did you "
+         "mean --scale?"},
+        {"synth e.obj -o o.obj --resoltion=32", "did you mean --resolution?"},
+        {"synth -o o.obj", "EXAMPLE"}}) {
     const auto run = runExemplar(arguments, folder.path());
     EXPECT_EQ(run.status, 2) << arguments;
     EXPECT_THAT(run.err, HasSubstr(says));
@@ -102,8 +112,29 @@ TEST(BadCommand, NoCommandAndUnknownOptionAreStatusTwo) {
 TEST(BadCommand, HelpAndVersionAreStatusZero) {
   const TestFolder folder;
   EXPECT_EQ(runExemplar("--help", folder.path()).status, 0);
+  const auto bare = runExemplar("", folder.path());
+  EXPECT_EQ(bare.status, 0);
+  EXPECT_EQ(bare.out, runExemplar("--help", folder.path()).out);
   EXPECT_THAT(runExemplar("synth --help", folder.path()).out, HasSubstr("--scale"));
   EXPECT_EQ(runExemplar("--version", folder.path()).status, 0);
+}
+
+TEST(BadCommand, HelpFitsAScreen) {
+  const TestFolder folder;
+  const std::string few = runExemplar("synth --help", folder.path()).out,
+                    all = runExemplar("synth --help-all", folder.path()).out;
+  EXPECT_THAT(few, HasSubstr("--help-all"));
+  EXPECT_THAT(few, Not(HasSubstr("--metropolis")));
+  EXPECT_THAT(all, HasSubstr("--metropolis"));
+  for (const std::string command : {"", "synth", "mesh", "sdf", "compare", "measure", "render"}) {
+    std::istringstream help(runExemplar(command + " --help", folder.path()).out);
+    int lines = 0;
+    for (std::string line; std::getline(help, line); ++lines)
+      EXPECT_LE(line.size(), 80u) << command << ": " << line;
+    EXPECT_GT(lines, 10) << command;
+  }
+  std::istringstream help(all);
+  for (std::string line; std::getline(help, line);) EXPECT_LE(line.size(), 80u) << line;
 }
 
 TEST(BadCommand, AFullDiskLeavesNoFile) {

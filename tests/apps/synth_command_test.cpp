@@ -49,6 +49,36 @@ TEST(SynthCommand, WritesASoundMeshAPictureAndFigures) {
   EXPECT_EQ(stats["mesh"]["triangles"].get<std::size_t>(), mesh.triangles.size());
 }
 
+TEST(SynthCommand, GivesSeveralResultsOfSeedsInARow) {
+  const TestFolder folder;
+  const std::string words = "synth " + scene("balls") + " -r 24 -s 2 1 1 -q ";
+  const auto several =
+      runExemplar(words + "-n 3 --seed 5 -o o.ply -o o.vdb --stats o.json", folder.path());
+  ASSERT_EQ(several.status, 0) << several.err;
+  EXPECT_EQ(folder.files(),
+            "o_000.json o_000.ply o_000.vdb o_001.json o_001.ply o_001.vdb o_002.json o_002.ply "
+            "o_002.vdb");
+  for (int n = 0; n < 3; ++n) {
+    const std::string seed = std::to_string(5 + n), number = std::to_string(n);
+    ASSERT_EQ(runExemplar(words + "--seed " + seed + " -o one.ply", folder.path()).status, 0);
+    EXPECT_EQ(readFile(folder / "one.ply"), readFile(folder / ("o_00" + number + ".ply"))) << n;
+  }
+  // The example is read once, and would be written over by one of the results.
+  ASSERT_EQ(runExemplar("scene balls -o e_001.ply", folder.path()).status, 0);
+  const auto over = runExemplar("synth e_001.ply -n 2 -o e.ply", folder.path());
+  EXPECT_EQ(over.status, 2);
+  EXPECT_THAT(over.err, testing::HasSubstr("e_001.ply"));
+}
+
+TEST(SynthCommand, TakesThreeNumbersWithoutCommasAndAScenesName) {
+  const TestFolder folder;
+  const std::string words = " --resolution 24 -q -o ";
+  ASSERT_EQ(runExemplar("synth balls" + words + "a.ply --scale 2 1 1", folder.path()).status, 0);
+  ASSERT_EQ(runExemplar("synth " + scene("balls") + words + "b.ply -s 2,1,1", folder.path()).status,
+            0);
+  EXPECT_EQ(readFile(folder / "a.ply"), readFile(folder / "b.ply"));
+}
+
 TEST(SynthCommand, GivesTheSameBytesAtOneAndEightThreadsAndOthersForAnotherSeed) {
   const TestFolder folder;
   for (const std::string engine : {"blocks --block 8", "quilting", "voting"}) {
