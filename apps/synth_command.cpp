@@ -34,6 +34,7 @@ struct Options {
   std::vector<std::string> examples, with, outputs;
   std::string engine, preview, stats, origins, report, layers;
   int results = 1;
+  bool open = false;
   Settings settings;
   PictureOptions picture;
 };
@@ -365,6 +366,13 @@ void synth(const Options& options, Terminal& terminal) {
     ++plan.request.seed;
   }
 
+  if (options.open) {
+    const Options first = numbered(options, 0);
+    const std::string& shown = !first.report.empty()    ? first.report
+                               : !first.preview.empty() ? first.preview
+                                                        : first.outputs.front();
+    if (!openForUser(shown)) terminal.warn("--open: nothing here opens " + shown);
+  }
   terminal.say("done", readableSeconds(times.total.seconds()) + ", " +
                            readableBytes(static_cast<double>(peakResidentBytes())) +
                            " of memory at its peak");
@@ -436,6 +444,8 @@ Command addSynthCommand(CLI::App& app) {
       "--write-layers", options->layers,
       "also write which layer shows at each pixel, of the result and of the example "
       "(NAME.png, NAME_example.png): to edit them and give them back");
+  command->add_flag("--open", options->open,
+                    "open the page, else the picture, else the result, as the desktop does");
   addSettings(*command, options->settings);
   addPictureOptions(*command, options->picture, "--picture-size");
   command->footer(examplesFooter({"synth chainmail -o more.glb --preview more.png",

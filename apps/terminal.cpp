@@ -3,6 +3,8 @@
 
 #include "apps/terminal.h"
 
+#include <fcntl.h>
+#include <spawn.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -148,6 +150,24 @@ void Terminal::fail(const std::string& text, int status, const Conflict* conflic
   } else {
     std::fprintf(stderr, "exemplar: %s\n", line.c_str());
   }
+}
+
+bool openForUser(const std::filesystem::path& path) {
+#ifdef __APPLE__
+  std::string opener = "open";
+#else
+  std::string opener = "xdg-open";
+#endif
+  std::string file = std::filesystem::absolute(path).string();
+  char* words[] = {opener.data(), file.data(), nullptr};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
+  pid_t process = 0;
+  const int failed = posix_spawnp(&process, opener.c_str(), &actions, nullptr, words, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  return failed == 0;
 }
 
 std::string Terminal::interruption() const {

@@ -77,6 +77,10 @@ class Terminal {
   Progress progress_;
 };
 
+/// Opens a file with whatever the desktop opens files of its kind with, and does not wait. False
+/// where there is nothing that would.
+bool openForUser(const std::filesystem::path& path);
+
 /// Seconds since it was made.
 class Stopwatch {
  public:

@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "core/error.h"
 #include "engine/json.h"
 #include "engine/output.h"
+#include "maps/height_map_file.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
 #include "preview/render.h"
@@ -435,12 +437,13 @@ void addHeights(py::module_& module) {
               throw InputError("heights: an array of two dimensions is wanted, 2 or more a side");
             if (!(cellSize > 0)) throw InputError("cell_size: a number above 0 is wanted");
             auto made = std::make_shared<HeightMap>();
-            made->height = static_cast<int>(heights.shape(0));
-            made->width = static_cast<int>(heights.shape(1));
+            made->heights =
+                Grid<float>(static_cast<int>(heights.shape(1)), static_cast<int>(heights.shape(0)));
             made->cellSize = cellSize;
-            made->heights.assign(heights.data(), heights.data() + heights.size());
-            for (const float height : made->heights)
-              if (!std::isfinite(height)) throw InputError("heights: some are not finite");
+            made->cellSizeKnown = true;
+            std::copy_n(heights.data(), heights.size(), made->heights.values().data());
+            for (const float height : made->heights.values())
+              if (std::isinf(height)) throw InputError("heights: some are infinite");
             return made;
           }),
           py::arg("heights"), py::kw_only(), py::arg("cell_size") = 1.0);
@@ -448,20 +451,21 @@ void addHeights(py::module_& module) {
       "heights",
       [](const py::object& self) {
         const auto& m = self.cast<const HeightMap&>();
-        return view(m.heights.data(), {m.height, m.width}, {4 * py::ssize_t{m.width}, 4}, self);
+        return view(m.heights.values().data(), {m.height(), m.width()},
+                    {4 * py::ssize_t{m.width()}, 4}, self);
       },
-      "[row, column] float32: a view, read-only.");
+      "[row, column] float32: a view, read-only; NaN where there is no data.");
   map.def_readonly("cell_size", &HeightMap::cellSize);
   map.def(
       "write",
       [](const HeightMap& m, const std::filesystem::path& path) {
-        requireOutput(path, ".png .pgm .asc");
+        requireOutput(path, kHeightMapEndings);
         runUnlocked({}, [&](const Progress& progress) { writeHeightMap(path, m, {}, progress); });
       },
       py::arg("path"));
   map.def("__repr__", [](const HeightMap& m) {
-    return "<exemplar.Heights of " + std::to_string(m.width) + " x " + std::to_string(m.height) +
-           " points>";
+    return "<exemplar.Heights of " + std::to_string(m.width()) + " x " +
+           std::to_string(m.height()) + " points>";
   });
   module.def(
       "read_heights",
