@@ -33,7 +33,7 @@ enum Name : std::uint32_t {
   kFigureChoice = 0x46494731,    ///< which figure a vertex takes
   kFigureLearning = 0x46494732,  ///< trial results in which weights are learned
   // sdf
-  kDetailPlaces = 0xde7a,  ///< where a surface is looked at for its detail
+  kDetailPlaces = 0xde7a,     ///< where a surface is looked at for its detail
   kPatchMoves = 0x4C424C34,   ///< which patch of the example goes where
   kPatchRims = 0x4C424C36,    ///< which labels close the gap around a patch
   kPatchPlaces = 0x4C424C35,  ///< where patches go that are tried at once
