@@ -51,7 +51,7 @@ TEST(SynthCommand, WritesASoundMeshAPictureAndFigures) {
 
 TEST(SynthCommand, GivesSeveralResultsOfSeedsInARow) {
   const TestFolder folder;
-  const std::string words = "synth " + scene("balls") + " -r 24 -s 2 1 1 -q ";
+  const std::string words = "synth " + scene("balls") + " -r 16 -s 1 -q ";
   const auto several =
       runExemplar(words + "-n 3 --seed 5 -o o.ply -o o.vdb --stats o.json", folder.path());
   ASSERT_EQ(several.status, 0) << several.err;
@@ -72,9 +72,9 @@ TEST(SynthCommand, GivesSeveralResultsOfSeedsInARow) {
 
 TEST(SynthCommand, TakesThreeNumbersWithoutCommasAndAScenesName) {
   const TestFolder folder;
-  const std::string words = " --resolution 24 -q -o ";
-  ASSERT_EQ(runExemplar("synth balls" + words + "a.ply --scale 2 1 1", folder.path()).status, 0);
-  ASSERT_EQ(runExemplar("synth " + scene("balls") + words + "b.ply -s 2,1,1", folder.path()).status,
+  const std::string words = " --resolution 16 -q -o ";
+  ASSERT_EQ(runExemplar("synth balls" + words + "a.ply --scale 1.5 1 1", folder.path()).status, 0);
+  ASSERT_EQ(runExemplar("synth " + scene("balls") + words + "b.ply -s 1.5,1,1", folder.path()).status,
             0);
   EXPECT_EQ(readFile(folder / "a.ply"), readFile(folder / "b.ply"));
 }
