@@ -20,6 +20,7 @@
 #include "engine/output.h"
 #include "engine/page.h"
 #include "engine/realize.h"
+#include "engine/terrain_picture.h"
 #include "engine/words.h"
 #include "mesh/image.h"
 #include "sdf/vdb_file.h"
@@ -50,8 +51,9 @@ struct Plan {
 const Engine& engineOf(const Options& options, Settings& settings) {
   const std::string method = settings.text("method");
   const bool named = options.engine != "auto" && !options.engine.empty();
-  const Engine& engine =
-      named ? engineNamed(options.engine) : engineFor(Source(options.examples.front()));
+  const Engine& engine = named             ? engineNamed(options.engine)
+                         : !method.empty() ? engineNamed("geometry")
+                                           : engineFor(Source(options.examples.front()));
   if (engine.name() != "geometry" || method.empty()) return engine;
   if (method != "optimize" && method != "blocks")
     throw InputError("`method` " + method + ": expected optimize or blocks");
@@ -178,10 +180,12 @@ Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& te
 std::optional<Surface> surfaceFor(const Options& options, const Plan& plan, const Result& result,
                                   std::span<const Example> examples, const Progress& progress) {
   if (result.form() == Form::Map) return std::nullopt;
+  const bool heights = result.form() == Form::Heights;
   const bool needed = std::ranges::any_of(options.outputs, [&](const std::string& output) {
     return needsSurface(output, result, plan.output);
   });
-  if (!needed && options.preview.empty() && options.report.empty()) return std::nullopt;
+  if (!needed && (options.preview.empty() || heights) && options.report.empty())
+    return std::nullopt;
   return realize(result, examples, plan.surface, progress);
 }
 
@@ -288,6 +292,11 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
   if (!options.preview.empty() && result.form() == Form::Map) {
     writeMapLayer(options.preview, result.map().layers.front());
     terminal.wrote("picture", options.preview, options.preview);
+  } else if (!options.preview.empty() && result.form() == Form::Heights) {
+    writePng(options.preview,
+             terrainPicture(result, examples.front(), 2400, progress.part(0.9, 0.95)));
+    terminal.wrote("picture", options.preview,
+                   options.preview + ": shaded relief, the example beside the result");
   } else if (!options.preview.empty()) {
     writePng(options.preview, render(surface->mesh, plan.picture, progress.part(0.9, 0.95)));
     terminal.wrote("picture", options.preview, options.preview);
@@ -344,6 +353,8 @@ void addSettings(CLI::App& command, Settings& into) {
   }
   options.add("Reading a mesh as polygons", "polygons", readingSettings(Form::Polygons).settings());
   options.add("Reading a picture as a map", "maps", readingSettings(Form::Map).settings());
+  options.add("Reading a height map for terrain", "heights",
+              readingSettings(Form::Heights).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Field).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Labels).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Polygons).settings());
@@ -367,7 +378,7 @@ Command addSynthCommand(CLI::App& app) {
                                "distances ") +
                        outputEndings(Form::Field) + ", of labels " + outputEndings(Form::Labels) +
                        ", of polygons " + outputEndings(Form::Polygons) + ", of maps " +
-                       outputEndings(Form::Map))
+                       outputEndings(Form::Map) + ", of terrain " + outputEndings(Form::Heights))
       ->required()
       ->allow_extra_args(false);
   std::string names;
@@ -375,7 +386,7 @@ Command addSynthCommand(CLI::App& app) {
   command
       ->add_option("--engine", options->engine,
                    "what makes it (auto: model for labels and scenes of pieces, continuous "
-                   "for scenes of solids, else geometry)")
+                   "for scenes of solids, terrain for height maps, else geometry)")
       ->option_text("auto" + names);
   command
       ->add_option("--with", options->with,

@@ -29,11 +29,14 @@ enum Name : std::uint32_t {
   kLayers = 0x4C594552,         ///< the shapes of layers
   kLayerClusters = 0x4C594343,  ///< where clusters of neighborhoods begin
   kTextureStart = 0x4C595458,   ///< where a texture's pixels first come from
+  // synth/terrain
+  kTerrainStart = 0x54455253,    ///< which regions a terrain begins with
+  kTerrainPatches = 0x54455250,  ///< where patches of heights are looked for
   // synth/continuous
   kFigureChoice = 0x46494731,    ///< which figure a vertex takes
   kFigureLearning = 0x46494732,  ///< trial results in which weights are learned
   // sdf
-  kDetailPlaces = 0xde7a,  ///< where a surface is looked at for its detail
+  kDetailPlaces = 0xde7a,     ///< where a surface is looked at for its detail
   kPatchMoves = 0x4C424C34,   ///< which patch of the example goes where
   kPatchRims = 0x4C424C36,    ///< which labels close the gap around a patch
   kPatchPlaces = 0x4C424C35,  ///< where patches go that are tried at once

@@ -24,7 +24,9 @@ std::optional<Measures> measure(const Result& result, std::span<const Example> e
     input.origins = &result.origins;
     return measure(example.field(), result.field(), input, {}, progress);
   }
-  if (result.form() == Form::Polygons || result.form() == Form::Map) return std::nullopt;
+  if (result.form() == Form::Polygons || result.form() == Form::Map ||
+      result.form() == Form::Heights)
+    return std::nullopt;
   const std::optional<SampledResult> placed = sampled(result, example);
   if (!placed) return std::nullopt;
   input.origins = &placed->origins;
