@@ -32,7 +32,7 @@ struct ReliefOptions {
 /// height. Areas without data are gray.
 Image8 shadedRelief(const ReliefHeights& map, const ReliefOptions& options);
 
-/// The exaggeration with which steep ground of a map (steeper than nine tenths of it) stands at
+/// The exaggeration with which steep ground of a map (steeper than nine tenths of it) is at
 /// about 40 degrees: 1 in mountains.
 double reliefExaggeration(const ReliefHeights& map);
 

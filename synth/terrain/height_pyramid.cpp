@@ -19,7 +19,7 @@ double bankOf(std::span<const HeightSource> sources) {
   std::vector<float> steps;
   for (const HeightSource& source : sources) {
     const Grid<float>& h = source.heights;
-    // Of large maps some rows tell enough.
+    // Some rows of large maps suffice.
     const int every = 1 + h.height() / 512;
     for (int y = 0; y < h.height(); y += every) {
       for (int x = 0; x + 1 < h.width(); ++x) {
