@@ -43,13 +43,14 @@ void writeReport(const Options& options, const Example& example, const Measured&
   writePage(page, {{"figures", toJson(all)}}, picture, progress.part(0.4, 1));
 }
 
-void writeFigures(const Options& options, const std::vector<Figure>& all, Terminal& terminal) {
+void writeFigures(const Options& options, const std::vector<Figure>& all, Terminal& terminal,
+                  const std::string& table = {}) {
   terminal.wipe();
   if (options.json == "-") {
     std::printf("%s\n", toJson(all).dump(2).c_str());
     return;
   }
-  if (!terminal.quiet()) terminal.print(figuresTable(all));
+  if (!terminal.quiet()) terminal.print(table.empty() ? figuresTable(all) : table);
   if (options.json.empty()) return;
   writeFile(options.json, toJson(all).dump(2) + "\n");
   terminal.noteFile(options.json, "figures");
@@ -90,11 +91,30 @@ void measureLabels(const Options& options, Terminal& terminal) {
                terminal);
 }
 
+/// Whether an option was given that only distances have.
+bool asksForDistances(const Options& options) {
+  return !options.report.empty() || !options.origins.empty() || options.settings.has("scale") ||
+         options.settings.has("resolution");
+}
+
+void measureHeights(const Options& options, Terminal& terminal) {
+  for (const std::string& path : {options.example, options.result}) requireThere(path);
+  Warnings warnings;
+  const TerrainLikeness terrain =
+      measureTerrain(Source(options.example), Source(options.result),
+                     readingOf(options.settings, Form::Field), warnings, terminal.progress());
+  terminal.wipe();
+  for (const std::string& warning : warnings) terminal.warn(warning);
+  writeFigures(options, figures(terrain), terminal, figuresTable(terrain));
+}
+
 void measureFiles(const Options& options, Terminal& terminal) {
   if (!options.json.empty() && options.json != "-") requireOutput(options.json, ".json");
   if (!options.report.empty()) requireOutput(options.report, ".html");
   if (options.layers) return measureLayerMaps(options, terminal);
   if (isOfLabels(options)) return measureLabels(options, terminal);
+  if (areHeights(options.example, options.result) && !asksForDistances(options))
+    return measureHeights(options, terminal);
   RenderOptions picture = renderOptions(options.picture);
   const Request request = requestOf(options.settings);
   if (request.extent.scale && !options.origins.empty())
@@ -134,8 +154,9 @@ Command addMeasureCommand(CLI::App& app) {
   command
       ->add_option(
           "RESULT", options->result,
-          "a .vdb (its own samples), a mesh (sampled where synth's samples were), or labels "
-          "(.txt .vox .vdb, a picture)")
+          "a .vdb (its own samples), a mesh (sampled where synth's samples were), labels "
+          "(.txt .vox .vdb, a picture), or a height map, which is measured as terrain where "
+          "EXAMPLE is one (as distances with --resolution)")
       ->required();
   command->add_option("--origins", options->origins,
                       "the result's origins (.vdb, by synth --origins): more figures");

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -20,9 +21,9 @@
 #include "engine/output.h"
 #include "engine/page.h"
 #include "engine/realize.h"
-#include "engine/terrain_picture.h"
 #include "engine/words.h"
 #include "mesh/image.h"
+#include "preview/relief.h"
 #include "sdf/vdb_file.h"
 
 namespace exemplar {
@@ -78,7 +79,7 @@ void checkOutputs(const Options& options, Form form, int lods) {
   if (!options.layers.empty()) requireOutput(options.layers, ".png");
   Paths inputs(options.examples.begin(), options.examples.end());
   inputs.insert(inputs.end(), options.with.begin(), options.with.end());
-  for (const char* key : {"keep", "guide", "mask", "layers-from", "paint"})
+  for (const char* key : {"keep", "guide", "mask", "base", "detail-of", "layers-from", "paint"})
     if (options.settings.has(key)) inputs.emplace_back(options.settings.text(key));
   Paths files = filesOf(options.outputs, lods);
   if (form == Form::Map) {
@@ -217,6 +218,19 @@ void writeReport(const Options& options, const Plan& plan, std::span<const Examp
   writePage(page, std::move(run), plan.picture, progress.part(0.5, 1));
 }
 
+/// The example and the result as relief at one scale, with their streams, in light from the
+/// northwest and, below, from the northeast.
+Image8 reliefOf(const HeightMap& example, const HeightMap& result, const RenderOptions& picture,
+                const Progress& progress) {
+  const ReliefMap maps[] = {{&example.heights, example.cellSize},
+                            {&result.heights, result.cellSize}};
+  ReliefOptions options{.azimuths = {1.75 * std::numbers::pi, 0.25 * std::numbers::pi}};
+  options.streamCells =
+      static_cast<std::uint32_t>(std::max<std::size_t>(2, example.heights.count() / 400));
+  options.longest = std::max(picture.width, picture.height);
+  return renderRelief(maps, options, progress);
+}
+
 /// How large the result was asked to be, in sizes of the example.
 Vec3d scaleOf(const Plan& plan, const Result& result, std::span<const Example> examples) {
   const Extent& extent = plan.request.extent;
@@ -228,8 +242,9 @@ Vec3d scaleOf(const Plan& plan, const Result& result, std::span<const Example> e
   return scale;
 }
 
-void writeStats(const Options& options, const Result& result, const std::optional<Surface>& surface,
-                const Times& times, const Terminal& terminal) {
+void writeStats(const Options& options, std::span<const Example> examples, const Result& result,
+                const std::optional<Surface>& surface, const Times& times,
+                const Terminal& terminal) {
   Json stats = {{"example", options.examples.front()},
                 {"output", options.outputs.front()},
                 {"outputs", options.outputs},
@@ -242,6 +257,8 @@ void writeStats(const Options& options, const Result& result, const std::optiona
     stats.update(toJson(figures(measureLayers(*result.exampleLayers, false, *result.layers,
                                               terminal.progress().part(0.95, 1)))));
   }
+  if (const auto terrain = measureTerrain(result, examples, terminal.progress().part(0.95, 1)))
+    stats.update(toJson(figures(*terrain)));
   stats["warnings"] = terminal.warnings();
   const double total = times.total.seconds();
   stats["seconds"] = {{"read", times.read},
@@ -293,8 +310,8 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
     writeMapLayer(options.preview, result.map().layers.front());
     terminal.wrote("picture", options.preview, options.preview);
   } else if (!options.preview.empty() && result.form() == Form::Heights) {
-    writePng(options.preview,
-             terrainPicture(result, examples.front(), 2400, progress.part(0.9, 0.95)));
+    writePng(options.preview, reliefOf(examples.front().heights(), result.heights(), plan.picture,
+                                       progress.part(0.9, 0.95)));
     terminal.wrote("picture", options.preview,
                    options.preview + ": shaded relief, the example beside the result");
   } else if (!options.preview.empty()) {
@@ -307,7 +324,7 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
   }
   for (const std::string& warning : *plan.picture.warnings) terminal.warn(warning);
   if (!options.stats.empty()) {
-    writeStats(options, result, surface, times, terminal);
+    writeStats(options, examples, result, surface, times, terminal);
     terminal.wrote("stats", options.stats, options.stats);
   }
 }

@@ -57,7 +57,8 @@ Command addVoxelizeCommand(CLI::App& app) {
       app.add_subcommand("voxelize", "Write an example as a grid of labels (cells of materials)");
   command
       ->add_option("EXAMPLE", options->example,
-                   "a mesh, a scene, a volume, a height map (.pgm .asc), a picture or a label grid")
+                   "a mesh, a scene, a volume, a height map (.asc .tif .exr .pgm .r16), a picture "
+                   "or a label grid")
       ->required();
   command
       ->add_option(

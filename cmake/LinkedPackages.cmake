@@ -12,7 +12,7 @@ set(exemplar_packages
   "OpenMesh CONFIG"
   "hwy CONFIG"
   "meshoptimizer CONFIG"
-  PNG JPEG ZLIB CaDiCaL)
+  PNG JPEG TIFF "OpenEXR CONFIG" ZLIB CaDiCaL)
 
 # OpenVDB ships a find module outside CMake's own path, and CaDiCaL's is beside this file. For
 # these packages only: the other modules in those folders must shadow nothing.

@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "engine/example_forms.h"
 #include "engine/mesh_field.h"
 #include "engine/words.h"
 #include "mesh/scene.h"
+#include "sdf/height_map.h"
 #include "sdf/mesh_to_sdf.h"
 #include "sdf/vdb_file.h"
 #include "synth/geometry/detail.h"
@@ -61,18 +63,22 @@ void readMeshField(Example& example, const Progress& progress) {
 
 void sampleHeights(Example& example, const Progress& progress) {
   const ReadOptions& options = example.reading;
-  const HeightMap map = readHeights(example.source,
-                                    {.cellSize = options.cellSize,
-                                     .heightScale = options.heightScale,
-                                     .warnings = &example.warnings},
-                                    progress.part(0, 0.3));
+  HeightMap map = readHeights(example.source,
+                              {.cellSize = options.cellSize,
+                               .heightScale = options.heightScale,
+                               .warnings = &example.warnings},
+                              progress.part(0, 0.3));
+  if (const std::size_t holes = fillHoles(map.heights); holes > 0) {
+    example.warnings.push_back(example.name() + ": filling " + counted(holes, "cell") +
+                               " without data from their neighbors");
+  }
   example.heightSteps = map.steps;
   example.data = heightMapToSdf(map,
                                 {.resolution = options.resolution.value_or(kDefaultResolution),
                                  .halfWidth = kExampleHalfWidth},
                                 progress.part(0.3, 1));
-  example.description =
-      "height map of " + withThousands(map.width) + " x " + withThousands(map.height) + " points";
+  example.description = "height map of " + withThousands(map.width()) + " x " +
+                        withThousands(map.height()) + " points";
 }
 
 void takeVolume(Example& example, const Progress& progress) {

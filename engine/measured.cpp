@@ -3,14 +3,18 @@
 
 #include "engine/measured.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
 #include "engine/example_forms.h"
+#include "engine/heights.h"
 #include "engine/realize.h"
 #include "engine/request.h"
+#include "engine/words.h"
 #include "measure/mesh_result.h"
 #include "mesh/footprint.h"
+#include "sdf/height_map.h"
 #include "sdf/vdb_file.h"
 
 namespace exemplar {
@@ -51,6 +55,57 @@ Content measureContent(const Source& result, const Example& example, const Progr
   both[0].content = both[1].kind == SourceKind::Picture ? both[0].content : LabelContent{};
   numberAlike(both);
   return measureContent(both[0].labels(), both[1].labels(), progress.part(0.3, 1));
+}
+
+std::optional<TerrainLikeness> measureTerrain(const Result& result,
+                                              std::span<const Example> examples,
+                                              const Progress& progress) {
+  const Example& example = examples.front();
+  if (result.form() == Form::Heights) {
+    const HeightMap &wanted = example.heights(), &made = result.heights();
+    Grid<std::uint8_t> seams(made.width(), made.height());
+    const Grid<HeightOrigin>& origins = result.heightOrigins;
+    for (int y = 0; y < made.height(); ++y) {
+      for (int x = 0; x < made.width(); ++x) {
+        const HeightOrigin& here = origins(x, y);
+        if (x + 1 < made.width() && !(origins(x + 1, y) == stepped(here, {1, 0})))
+          seams(x, y) |= kSeamRight;
+        if (y + 1 < made.height() && !(origins(x, y + 1) == stepped(here, {0, 1})))
+          seams(x, y) |= kSeamBelow;
+      }
+    }
+    return measureTerrain(wanted.heights, made.heights,
+                          {.cellSize = wanted.cellSize, .meters = wanted.cellSizeKnown}, &seams,
+                          progress);
+  }
+  if (result.form() != Form::Field || example.kind != SourceKind::HeightMap) return std::nullopt;
+  const HeightMap wanted = sdfToHeightMap(example.field(), progress.part(0, 0.05));
+  const HeightMap made = sdfToHeightMap(result.field(), progress.part(0.05, 0.1));
+  return measureTerrain(wanted.heights, made.heights, {.cellSize = wanted.cellSize}, nullptr,
+                        progress.part(0.1, 1));
+}
+
+bool areHeights(const Source& example, const Source& result) {
+  return sourceKind(example) == SourceKind::HeightMap &&
+         sourceKind(result) == SourceKind::HeightMap;
+}
+
+TerrainLikeness measureTerrain(const Source& example, const Source& result,
+                               const ReadOptions& reading, Warnings& warnings,
+                               const Progress& progress) {
+  const Source both[] = {example, result};
+  const std::vector<HeightMap> maps =
+      readHeightsAlike(both, reading, warnings, progress.part(0, 0.2));
+  const double wanted = maps[0].cellSize, made = maps[1].cellSize;
+  // A volume's samples divide the length that the points of its example span.
+  if (std::abs(made - wanted) > 0.02 * wanted) {
+    throw InputError(result.name() + " has cells of " + numberText(made) + ", and " +
+                     example.name() + " of " + numberText(wanted) +
+                     "; terrain is measured at one resolution: resample one of them");
+  }
+  return measureTerrain(maps[0].heights, maps[1].heights,
+                        {.cellSize = wanted, .meters = maps[0].cellSizeKnown}, nullptr,
+                        progress.part(0.2, 1));
 }
 
 Measured readMeasured(const Source& result, const std::optional<Source>& origins,

@@ -31,6 +31,21 @@ std::optional<Content> measureContent(const Result& result, std::span<const Exam
 /// `InputError` and `Cancelled`.
 Content measureContent(const Source& result, const Example& example, const Progress& progress = {});
 
+/// A complete result of a height map as terrain: by the heights of its field's columns against the
+/// example's, sampled alike. Nothing for other results. Throws `Cancelled`.
+std::optional<TerrainLikeness> measureTerrain(const Result& result,
+                                              std::span<const Example> examples,
+                                              const Progress& progress = {});
+/// Whether both are height maps, which are measured as terrain.
+bool areHeights(const Source& example, const Source& result);
+/// Two height maps against each other, at the example's `cell-size` and `height-scale`. What
+/// neither the files nor the reading options say (the cells' size, what integers stand for) is
+/// taken to be the same for both; `warnings` hears what is. Throws `InputError`, also where the
+/// cells differ in size, and `Cancelled`.
+TerrainLikeness measureTerrain(const Source& example, const Source& result,
+                               const ReadOptions& reading, Warnings& warnings,
+                               const Progress& progress = {});
+
 /// What is measured against an example: a result, as it was made or read from files.
 struct Measured {
   DistanceField field;

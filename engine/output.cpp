@@ -143,13 +143,13 @@ Written writeTriangles(const fs::path& path, const TriangleMesh& mesh,
 const char* outputEndings(Form form) {
   switch (form) {
     case Form::Field:
-      return ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc";
+      return ".obj .ply .stl .off .glb .gltf .vdb .asc .tif .exr .png .pgm .r16";
     case Form::Labels:
       return ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf .gif";
     case Form::Map:
       return ".png";
     case Form::Heights:
-      return ".png .pgm .asc .obj .ply .stl .off .glb .gltf";
+      return ".asc .tif .tiff .exr .png .pgm .r16 .obj .ply .stl .off .glb .gltf";
     default:
       return kMeshEndings;
   }
@@ -176,6 +176,9 @@ std::vector<fs::path> filesOf(std::span<const std::string> outputs, int lods) {
   const auto add = [&](const fs::path& path) {
     files.push_back(path);
     if (endsWith(path, ".obj")) files.push_back(fs::path(path).replace_extension(".mtl"));
+    // What a file of integers cannot say about heights.
+    for (const char* ending : {".png", ".pgm", ".r16"})
+      if (endsWith(path, ending)) files.push_back(heightSidecarPath(path));
   };
   for (const std::string& output : outputs) {
     add(output);

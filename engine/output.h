@@ -36,8 +36,8 @@ void requireOutput(const std::filesystem::path& path, const std::string& endings
 std::filesystem::path channelPath(const std::filesystem::path& path, const std::string& channel);
 /// Where the nth coarser copy of a mesh goes, from 1: `wall.glb` becomes `wall_lod1.glb`.
 std::filesystem::path lodPath(const std::filesystem::path& path, int n);
-/// All files with names of their own that writing to the paths gives: with `lods` coarser copies of
-/// the meshes, and the material library of an `.obj`.
+/// All files with names of their own that writing to the paths may give: with `lods` coarser copies
+/// of the meshes, the material library of an `.obj`, and what is beside heights.
 std::vector<std::filesystem::path> filesOf(std::span<const std::string> outputs, int lods);
 /// Refuses files that would overwrite one another, or one of the `inputs`; each of `files` is one
 /// that will be written.

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "engine/example_forms.h"
-#include "engine/terrain_picture.h"
+#include "engine/height_mesh.h"
 #include "engine/words.h"
 #include "mesh/footprint.h"
 #include "reconstruct/copy_triangles.h"

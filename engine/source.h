@@ -10,10 +10,10 @@
 
 #include "core/axes.h"
 #include "core/progress.h"
+#include "maps/height_map_file.h"
 #include "mesh/mesh_file.h"
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
-#include "sdf/height_map.h"
 #include "sdf/vdb_file.h"
 #include "synth/continuous/solid_scene.h"
 #include "voxelize/label_grid.h"
@@ -73,7 +73,7 @@ enum class SourceKind {
   Pieces,     ///< .toml: a scene made of model pieces on a grid
   Solids,     ///< .toml: a scene of solids between planes
   Volume,     ///< .vdb of signed distances
-  HeightMap,  ///< .png .pgm .asc
+  HeightMap,  ///< .asc .tif .exr .png .pgm .r16
   Labels,     ///< .txt .vox, .vdb of labels
   Picture,    ///< .jpg; a .png, too, where labels are asked for
 };
@@ -87,7 +87,7 @@ void requireThere(const Source& source);
 
 /// The endings of examples, for help and errors.
 inline constexpr const char* kExampleEndings =
-    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .txt .vox .jpg or .toml";
+    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .tif .exr .r16 .txt .vox .jpg or .toml";
 
 /// Read what a source holds. Throw `InputError` naming it, and `Cancelled`.
 TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,

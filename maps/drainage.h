@@ -28,7 +28,7 @@ inline constexpr std::uint8_t kLeavesMap = 8, kNoData = 9;
 
 /// The flow of water over a map.
 struct Drainage {
-  /// The height to which water would stand in each cell before it ran off: at least the cell's own,
+  /// The height that water would have in each cell before it ran off: at least the cell's own,
   /// and more inside closed depressions. NaN where there is no data.
   Grid<float> levels;
   /// D8: the neighbor that each cell drains to (an index into `kNeighbors`), `kLeavesMap` or

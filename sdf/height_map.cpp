@@ -20,13 +20,12 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check(const HeightMap& map) {
-  if (map.width < 2 || map.height < 2 ||
-      map.heights.size() != static_cast<std::size_t>(map.width) * map.height)
-    throw InputError("a height map needs at least 2 x 2 points and a height for each");
+  if (map.width() < 2 || map.height() < 2)
+    throw InputError("a height map needs at least 2 x 2 points");
   if (!(map.cellSize > 0 && map.cellSize < kInfinity))
     throw InputError("the height map's `cellSize` is " + std::to_string(map.cellSize) +
                      "; it must be > 0");
-  for (const float h : map.heights)
+  for (const float h : map.heights.values())
     if (!std::isfinite(h)) throw InputError("the height map holds a height that is not finite");
 }
 
@@ -89,10 +88,10 @@ Surface surfaceOf(const HeightMap& map, double voxelSize) {
                          : 1;
   const auto parts = [&](int n) { return std::max(2, n / factor); };
   Surface surface;
-  surface.columns = parts(map.width);
-  surface.rows = parts(map.height);
-  surface.cellX = map.cellSize * (map.width - 1) / (surface.columns - 1);
-  surface.cellY = map.cellSize * (map.height - 1) / (surface.rows - 1);
+  surface.columns = parts(map.width());
+  surface.rows = parts(map.height());
+  surface.cellX = map.cellSize * (map.width() - 1) / (surface.columns - 1);
+  surface.cellY = map.cellSize * (map.height() - 1) / (surface.rows - 1);
   surface.heights.resize(static_cast<std::size_t>(surface.columns) * surface.rows);
   const auto first = [](std::int64_t part, std::int64_t partCount, std::int64_t n) {
     return static_cast<int>(part * n / partCount);
@@ -100,12 +99,12 @@ Surface surfaceOf(const HeightMap& map, double voxelSize) {
   for (int r = 0; r < surface.rows; ++r)
     for (int c = 0; c < surface.columns; ++c) {
       double sum = 0;
-      const int c0 = first(c, surface.columns, map.width),
-                c1 = first(c + 1, surface.columns, map.width);
-      const int r0 = first(r, surface.rows, map.height),
-                r1 = first(r + 1, surface.rows, map.height);
+      const int c0 = first(c, surface.columns, map.width()),
+                c1 = first(c + 1, surface.columns, map.width());
+      const int r0 = first(r, surface.rows, map.height()),
+                r1 = first(r + 1, surface.rows, map.height());
       for (int b = r0; b < r1; ++b)
-        for (int a = c0; a < c1; ++a) sum += map.at(a, map.height - 1 - b);
+        for (int a = c0; a < c1; ++a) sum += map.at(a, map.height() - 1 - b);
       surface.heights[static_cast<std::size_t>(r) * surface.columns + c] =
           static_cast<float>(sum / (static_cast<double>(c1 - c0) * (r1 - r0)));
     }
@@ -118,9 +117,9 @@ DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& 
                              const Progress& progress) {
   check(map);
   checkOptions(options);
-  const auto [lowest, highest] = std::minmax_element(map.heights.begin(), map.heights.end());
+  const auto [lowest, highest] = std::ranges::minmax_element(map.heights.values());
   const double relief = double{*highest} - *lowest;
-  const Vec3d side{map.cellSize * (map.width - 1), map.cellSize * (map.height - 1), relief};
+  const Vec3d side{map.cellSize * (map.width() - 1), map.cellSize * (map.height() - 1), relief};
   // Along z the air and the ground take their share of the samples.
   const int spare = options.air + options.ground;
   double h = options.voxelSize;
@@ -187,10 +186,9 @@ DistanceField heightMapToSdf(const HeightMap& map, const HeightMapToSdfOptions& 
 HeightMap sdfToHeightMap(const DistanceField& field, const Progress& progress) {
   const Vec3i n = field.size();
   HeightMap map;
-  map.width = n.x;
-  map.height = n.y;
+  map.heights = Grid<float>(n.x, n.y);
   map.cellSize = field.voxelSize;
-  map.heights.resize(static_cast<std::size_t>(n.x) * n.y);
+  map.cellSizeKnown = true;
   const Box3d box = field.box();
   progress.report("finding heights", 0);
   LoopProgress rows(progress, "finding heights", static_cast<std::size_t>(n.y));
@@ -205,7 +203,7 @@ HeightMap sdfToHeightMap(const DistanceField& field, const Progress& progress) {
         const double inside = field.values(i, j, k), outside = field.values(i, j, k + 1);
         height = field.origin.z + (k + inside / (inside - outside)) * field.voxelSize;
       }
-      map.heights[static_cast<std::size_t>(n.y - 1 - j) * n.x + i] = static_cast<float>(height);
+      map.heights(i, n.y - 1 - j) = static_cast<float>(height);
     }
   };
   parallelFor(0, static_cast<std::size_t>(n.y), 1, [&](std::size_t j0, std::size_t j1) {

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "core/random.h"
@@ -168,7 +169,6 @@ struct HeightField::Query {
   alignas(32) float heights[8][kSamples];
   alignas(32) float flow[8][kSamples];
   float mean = 0;
-  double evenness = 0;
 };
 
 HeightField::HeightField(int width, int height, const HeightMatching& matching)
@@ -200,9 +200,6 @@ void HeightField::fetch(const Grid<float>& heights, const Grid<float>& flow, int
   };
   take(heights, query.heights);
   if (matching_.flow > 0) take(flow, query.flow);
-  // Patches mind differently, so that not all leave a busy place at once.
-  const Random random(0, stream::kTerrainPatches);
-  query.evenness = 2 * matching_.evenness * random.uniform(matches_.index(column, row));
   query.mean = meanOf(query.heights[matching_.turns.front()], kSide);
 }
 
@@ -221,7 +218,7 @@ double HeightField::costOf(const HeightSource& source, const Query& query,
   if (!uses_.empty()) {
     const Grid<float>& uses = uses_[match.example];
     const float use = uses((match.x + kSide / 2) / kUseBlock, (match.y + kSide / 2) / kUseBlock);
-    cost *= 1 + query.evenness * std::max(0.0f, use - 1);
+    cost *= 1 + matching_.evenness * std::max(0.0f, use - 1);
   }
   return cost;
 }
@@ -240,7 +237,6 @@ bool HeightField::consider(std::span<const HeightSource> sources, const Query& q
 
 void HeightField::countUses(std::span<const HeightSource> sources) {
   if (matching_.evenness <= 0) return;
-  const std::vector<Grid<float>> before = std::move(uses_);
   uses_.clear();
   std::size_t places = 0;
   for (const HeightSource& source : sources) {
@@ -248,29 +244,9 @@ void HeightField::countUses(std::span<const HeightSource> sources) {
                        (source.heights.height() + kUseBlock - 1) / kUseBlock);
     places += source.places;
   }
-  for (const HeightMatch& match : matches_.values()) {
-    uses_[match.example]((match.x + kSide / 2) / kUseBlock, (match.y + kSide / 2) / kUseBlock) += 1;
-  }
-  const double each = static_cast<double>(matches_.count()) * kUseBlock * kUseBlock /
-                      static_cast<double>(std::max<std::size_t>(1, places));
-  for (Grid<float>& uses : uses_) {
-    // Over neighbors, so that a place beside a busy one is busy, too.
-    Grid<float> smooth(uses.width(), uses.height());
-    for (int y = 0; y < uses.height(); ++y) {
-      for (int x = 0; x < uses.width(); ++x) {
-        float sum = 0, count = 0;
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx)
-            if (uses.contains(x + dx, y + dy)) sum += uses(x + dx, y + dy), count += 1;
-        smooth(x, y) = sum / count / static_cast<float>(each);
-      }
-    }
-    uses = std::move(smooth);
-  }
-  // What all patches leave at once they must not all come back to.
-  for (std::size_t e = 0; e < before.size(); ++e)
-    for (std::size_t n = 0; n < before[e].count(); ++n)
-      uses_[e][n] = 0.5f * (uses_[e][n] + before[e][n]);
+  usesEach_ = static_cast<float>(static_cast<double>(matches_.count()) * kUseBlock * kUseBlock /
+                                 static_cast<double>(std::max<std::size_t>(1, places)));
+  for (const HeightMatch& match : matches_.values()) addUse(match, 1);
 }
 
 void HeightField::search(std::span<const HeightSource> sources, const Grid<float>& heights,
@@ -345,35 +321,61 @@ void HeightField::search(std::span<const HeightSource> sources, const Grid<float
   });
 }
 
+void HeightField::addUse(const HeightMatch& match, float by) {
+  if (uses_.empty()) return;
+  Grid<float>& uses = uses_[match.example];
+  const int x = (match.x + kSide / 2) / kUseBlock, y = (match.y + kSide / 2) / kUseBlock;
+  int count = 0;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) count += uses.contains(x + dx, y + dy);
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      if (uses.contains(x + dx, y + dy))
+        uses(x + dx, y + dy) += by / (static_cast<float>(count) * usesEach_);
+    }
+  }
+}
+
 void HeightField::searchAll(std::span<const HeightSource> sources, const Grid<float>& heights,
                             const Grid<float>& flow, const Progress& progress) {
   countUses(sources);
-  parallelFor(0, static_cast<std::size_t>(rows()), 1, [&](std::size_t r0, std::size_t r1) {
-    Query query;
-    for (std::size_t r = r0; r < r1; ++r) {
-      for (int column = 0; column < columns(); ++column) {
-        progress.check();
-        fetch(heights, flow, column, static_cast<int>(r), query);
-        HeightMatch best;
-        best.cost = std::numeric_limits<float>::infinity();
-        for (std::size_t e = 0; e < sources.size(); ++e) {
-          const Grid<std::uint8_t>& whole = sources[e].whole;
-          for (int y = 0; y + kSide <= whole.height(); ++y) {
-            for (int x = 0; x + kSide <= whole.width(); ++x) {
-              if (!whole(x, y)) continue;
-              for (const int turn : matching_.turns) {
-                consider(sources, query,
-                         {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
-                          static_cast<std::uint8_t>(e), static_cast<std::uint8_t>(turn), 0},
-                         best);
-              }
+  // One patch after another, in an order without direction, so that each sees what the others use;
+  // its comparisons in parallel.
+  const std::size_t count = matches_.count();
+  std::size_t stride =
+      std::max<std::size_t>(1, static_cast<std::size_t>(0.618 * static_cast<double>(count)));
+  while (std::gcd(stride, count) != 1) ++stride;
+  Query query;
+  std::vector<HeightMatch> rows;
+  for (std::size_t n = 0, at = 0; n < count; ++n, at = (at + stride) % count) {
+    if (n % 16 == 0) progress.check();
+    const int column = static_cast<int>(at % static_cast<std::size_t>(columns()));
+    const int row = static_cast<int>(at / static_cast<std::size_t>(columns()));
+    addUse(matches_[at], -1);
+    fetch(heights, flow, column, row, query);
+    HeightMatch best;
+    best.cost = std::numeric_limits<float>::infinity();
+    for (std::size_t e = 0; e < sources.size(); ++e) {
+      const Grid<std::uint8_t>& whole = sources[e].whole;
+      rows.assign(static_cast<std::size_t>(whole.height() - kSide + 1), best);
+      parallelFor(0, rows.size(), 4, [&](std::size_t y0, std::size_t y1) {
+        for (std::size_t y = y0; y < y1; ++y) {
+          for (int x = 0; x + kSide <= whole.width(); ++x) {
+            for (const int turn : matching_.turns) {
+              consider(sources, query,
+                       {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
+                        static_cast<std::uint8_t>(e), static_cast<std::uint8_t>(turn), 0},
+                       rows[y]);
             }
           }
         }
-        matches_(column, static_cast<int>(r)) = best;
-      }
+      });
+      for (const HeightMatch& found : rows)
+        if (found.cost < best.cost) best = found;
     }
-  });
+    matches_[at] = best;
+    addUse(best, 1);
+  }
 }
 
 /// Calls `body(column, row, i, j)` for each patch over a sample, which is sample (i, j) of it.

@@ -91,6 +91,7 @@ class HeightField {
  private:
   struct Query;
   void countUses(std::span<const HeightSource> sources);
+  void addUse(const HeightMatch& match, float by);
   double costOf(const HeightSource& source, const Query& query, const HeightMatch& match) const;
   void fetch(const Grid<float>& heights, const Grid<float>& flow, int column, int row,
              Query& query) const;
@@ -104,6 +105,7 @@ class HeightField {
   std::vector<int> xs_, ys_;
   Grid<HeightMatch> matches_;
   std::vector<Grid<float>> uses_;  // of blocks of the examples, 1 on average
+  float usesEach_ = 1;             // how many patches that is
 };
 
 }  // namespace exemplar

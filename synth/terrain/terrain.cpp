@@ -30,7 +30,7 @@ constexpr double kCoarsestLevel = 0.3, kFinerLevel = 0.05;
 /// Patches are looked for everywhere while this many comparisons suffice for a round.
 constexpr double kMostComparisons = 2.5e6;
 /// Over how many samples heights follow the steps of their pieces rather than the vote.
-constexpr double kStepReach = 8;
+constexpr double kStepReach = 16;
 /// How far hollows are filled before an outlet is cut: little while finer resolutions still give
 /// the cut its valley, by half at the end.
 constexpr double kFillBefore = 0.2, kFillAtLast = 0.5;
@@ -89,7 +89,7 @@ class Synthesis {
       throw InputError("no " + std::to_string(kHeightPatch) + " x " + std::to_string(kHeightPatch) +
                        " samples of a height map are without holes; fill them first");
     }
-    if (options.drains) {
+    if (!options.keepsHollows) {
       // In a larger result streams are longer, and the relief is the same.
       double larger = 1;
       for (const Grid<float>& example : examples) {
@@ -374,7 +374,7 @@ class Synthesis {
 
   void cut(int l, Grid<float>& heights, double fill, SynthesizedTerrain& made,
            const Progress& progress) const {
-    if (!options_.drains) return;
+    if (options_.keepsHollows) return;
     const OutletsCut cut = cutOutlets(heights, controls_[static_cast<std::size_t>(l)].held,
                                       {.fill = fill,
                                        .fall = std::ldexp(fall_, l) * l / std::max(1, levels_ - 1),

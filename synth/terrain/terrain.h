@@ -48,10 +48,10 @@ struct TerrainSynthesisOptions {
   /// Orientations in which the examples are used (`turnedStep`); empty: those that keep the
   /// direction of the terrain, all eight where it has none.
   std::vector<int> turns;
-  int levels = 0;         ///< resolutions, each half the one before; 0: found; 1..12
-  int rounds = 3;         ///< of matching and voting on each resolution, 1..50
-  double evenness = 0.5;  ///< what it costs to use a place more often than others; >= 0
-  bool drains = true;     ///< hollows get outlets
+  int levels = 0;             ///< resolutions, each half the one before; 0: found; 1..12
+  int rounds = 3;             ///< of matching and voting on each resolution, 1..50
+  double evenness = 0.5;      ///< what it costs to use a place more often than others; >= 0
+  bool keepsHollows = false;  ///< cut no outlets
   TerrainControl control;
 };
 

@@ -4,12 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/file.h"
+#include "mesh/image.h"
 #include "tests/apps/run_command.h"
 
 namespace exemplar {
@@ -93,6 +95,55 @@ TEST(MeasureCommand, RefusesASizeThatCannotBe) {
     EXPECT_EQ(run.status, 2) << arguments;
     EXPECT_THAT(run.err, HasSubstr(error));
   }
+}
+
+/// An .asc of waves over a slope that falls to the west; `pits` are dug into it.
+std::string waves(int side, bool pits, const std::string& cell = "30") {
+  std::string text = "ncols " + std::to_string(side) + "\nnrows " + std::to_string(side) +
+                     "\ncellsize " + cell + "\n";
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const double h = 2 * x + 9 * std::sin(y * 0.31) - (pits && x % 8 == 4 && y % 8 == 4) * 40;
+      text += std::to_string(h) + (x + 1 < side ? " " : "\n");
+    }
+  }
+  return text;
+}
+
+TEST(MeasureCommand, MeasuresHeightMapsAsTerrain) {
+  const TestFolder folder;
+  writeFile(folder / "e.asc", waves(96, false));
+  writeFile(folder / "pits.asc", waves(96, true));
+  const auto run = runExemplar("measure e.asc pits.asc --json -", folder.path());
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto terrain = nlohmann::json::parse(run.out)["terrain"];
+  EXPECT_EQ(terrain["depressions_per_km2_example"], 0);
+  EXPECT_NEAR(terrain["depressions_per_km2"].get<double>(), 144 / (96 * 96 * 0.0009), 1e-6);
+  EXPECT_EQ(terrain["flooded_share_example"], 0);
+  EXPECT_GT(terrain["flooded_share"], 0.01);
+  // A table: the example, its halves, the result.
+  const auto table = runExemplar("measure e.asc pits.asc", folder.path());
+  EXPECT_THAT(table.out, HasSubstr("example   its half other half     result"));
+  // Cells of another size are another resolution.
+  writeFile(folder / "other.asc", waves(96, false, "60"));
+  const auto other = runExemplar("measure e.asc other.asc", folder.path());
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("one resolution"));
+}
+
+TEST(RenderCommand, DrawsHeightMapsAsRelief) {
+  const TestFolder folder;
+  writeFile(folder / "e.asc", waves(96, false));
+  const auto run = runExemplar(
+      "render e.asc e.asc -o r.png --light 315,45 --streams 50 --size 96x96", folder.path());
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Image8 image = decodeImage(readFile(folder / "r.png"), "r.png");
+  EXPECT_EQ(image.width, 96 + 8 + 96);
+  EXPECT_EQ(image.height, 96 + 8 + 96);
+  const auto surface =
+      runExemplar("render e.asc -o s.png --view top --streams 50 --size 96x96", folder.path());
+  EXPECT_EQ(surface.status, 2);
+  EXPECT_THAT(surface.err, HasSubstr("--streams: only relief has it"));
 }
 
 }  // namespace

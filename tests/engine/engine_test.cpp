@@ -47,11 +47,11 @@ Example discs() {
 
 /// Waves of two directions.
 HeightMap waves(int width, int height) {
-  HeightMap map{width, height, {}, 2};
+  HeightMap map{Grid<float>(width, height), 2};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      map.heights.push_back(
-          static_cast<float>(10 * std::sin(0.2 * x) + 7 * std::sin(0.3 * y + 1) + 0.1 * x));
+      map.heights(x, y) =
+          static_cast<float>(10 * std::sin(0.2 * x) + 7 * std::sin(0.3 * y + 1) + 0.1 * x);
     }
   }
   return map;
@@ -116,10 +116,10 @@ TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
       EXPECT_THROW(realize(result, {&example, 1}), InputError);
       continue;
     } else if (engine->form() == Form::Heights) {
-      EXPECT_EQ(result.heights().width, 72);
-      EXPECT_EQ(result.heights().height, 60);
+      EXPECT_EQ(result.heights().width(), 72);
+      EXPECT_EQ(result.heights().height(), 60);
       EXPECT_EQ(result.heights().cellSize, 2);
-      ASSERT_EQ(result.heightOrigins.count(), result.heights().heights.size());
+      ASSERT_EQ(result.heightOrigins.count(), result.heights().heights.count());
       for (const HeightOrigin& origin : result.heightOrigins.values())
         ASSERT_TRUE(origin.x >= 0 && origin.x < 50 && origin.y >= 0 && origin.y < 44);
       EXPECT_TRUE(realize(result, {&example, 1}).health.manifold());

@@ -46,7 +46,7 @@ TEST(ReadExample, FieldsLabelsAndHeightsInMemoryAreTakenAsTheyAre) {
   const Example labels = readExample(Source::of(rings()));
   EXPECT_EQ(labels.form(), Form::Labels);
   EXPECT_EQ(labels.labels().cells, rings().cells);
-  HeightMap map{16, 12, std::vector<float>(16 * 12, 3.0f), 2};
+  HeightMap map{Grid<float>(16, 12, 3.0f), 2, true};
   map.heights[17] = 9;
   const Example heights = readExample(Source::of(map), {.resolution = 16});
   EXPECT_EQ(heights.kind, SourceKind::HeightMap);

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
 #include "fuzz_reader.h"
-#include "sdf/height_map.h"
+#include "maps/height_map_file.h"
 
 namespace {
 // Grids and, where the bytes begin like one, .pgm pictures.

@@ -171,7 +171,7 @@ TEST(Drainage, KeepsToTheMiddleOfAFlat) {
       made(40, 15, [](int x, int y) { return std::abs(y - 7) > 4 || x == 39 ? 50 : 1; });
   const Drainage drainage = drain(heights);
   for (int x = 10; x < 30; ++x) EXPECT_EQ(drainage.directions(x, 7), 4) << x;
-  // What stands at its edge goes to the middle before it goes on.
+  // What is at its edge goes to the middle before it goes on.
   const Grid<std::uint32_t> sum = flowAccumulation(drainage);
   for (int x = 10; x < 25; ++x) {
     for (int y = 3; y <= 11; ++y) {

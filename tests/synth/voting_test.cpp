@@ -12,6 +12,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "maps/height_map_file.h"
 #include "sdf/height_map.h"
 #include "tests/synth/fields.h"
 

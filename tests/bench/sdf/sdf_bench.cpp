@@ -212,10 +212,9 @@ void openvdbSdfToSdf(benchmark::State& state) {
 }
 
 void heightMap(benchmark::State& state) {
-  HeightMap map{400, 400, {}, 1};
+  HeightMap map{Grid<float>(400, 400), 1};
   for (int p = 0; p < 160000; ++p)
-    map.heights.push_back(
-        static_cast<float>(30 * std::sin(p % 400 * 0.05) * std::cos(p / 400 * 0.04)));
+    map.heights[p] = static_cast<float>(30 * std::sin(p % 400 * 0.05) * std::cos(p / 400 * 0.04));
   HeightMapToSdfOptions options;
   options.resolution = static_cast<int>(state.range(0));
   DistanceField field;

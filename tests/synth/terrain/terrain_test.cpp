@@ -159,7 +159,7 @@ TEST(Terrain, FollowsAGuide) {
 TEST(Terrain, AddsDetailToCoarseHeights) {
   const Grid<float> example = mountains(128, 128, 9);
   const Grid<float> coarse = stretched(mountains(160, 160, 99), 40, 40);
-  TerrainSynthesisOptions options{.width = 160, .height = 160, .seed = 4, .drains = false};
+  TerrainSynthesisOptions options{.width = 160, .height = 160, .seed = 4, .keepsHollows = true};
   options.control.guide = coarse;
   options.control.guideLevel = 2;
   options.control.follow = 1;
