@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -25,6 +26,7 @@
 #include "engine/realize.h"
 #include "engine/words.h"
 #include "mesh/image.h"
+#include "preview/relief.h"
 #include "sdf/vdb_file.h"
 
 namespace exemplar {
@@ -68,8 +70,9 @@ struct Plan {
 const Engine& engineOf(const Options& options, Settings& settings) {
   const std::string method = settings.text("method");
   const bool named = options.engine != "auto" && !options.engine.empty();
-  const Engine& engine =
-      named ? engineNamed(options.engine) : engineFor(Source(options.examples.front()));
+  const Engine& engine = named             ? engineNamed(options.engine)
+                         : !method.empty() ? engineNamed("geometry")
+                                           : engineFor(Source(options.examples.front()));
   if (engine.name() != "geometry" || method.empty()) return engine;
   if (method != "optimize" && method != "blocks")
     throw InputError("`method` " + method + ": expected optimize or blocks");
@@ -94,7 +97,7 @@ void checkOutputs(const Options& options, Form form, int lods) {
   if (!options.layers.empty()) requireOutput(options.layers, ".png");
   Paths inputs(options.examples.begin(), options.examples.end());
   inputs.insert(inputs.end(), options.with.begin(), options.with.end());
-  for (const char* key : {"keep", "guide", "mask", "layers-from", "paint"})
+  for (const char* key : {"keep", "guide", "mask", "base", "detail-of", "layers-from", "paint"})
     if (options.settings.has(key)) inputs.emplace_back(options.settings.text(key));
   std::vector<std::pair<std::string, std::string>> channels;
   if (form == Form::Map) channels = readingOf(options.settings, form).channels;
@@ -200,10 +203,12 @@ Result synthesize(const Plan& plan, std::vector<Example>& examples, Terminal& te
 std::optional<Surface> surfaceFor(const Options& options, const Plan& plan, const Result& result,
                                   std::span<const Example> examples, const Progress& progress) {
   if (result.form() == Form::Map) return std::nullopt;
+  const bool heights = result.form() == Form::Heights;
   const bool needed = std::ranges::any_of(options.outputs, [&](const std::string& output) {
     return needsSurface(output, result, plan.output);
   });
-  if (!needed && options.preview.empty() && options.report.empty()) return std::nullopt;
+  if (!needed && (options.preview.empty() || heights) && options.report.empty())
+    return std::nullopt;
   return realize(result, examples, plan.surface, progress);
 }
 
@@ -233,6 +238,19 @@ void writeReport(const Options& options, const Plan& plan, std::span<const Examp
     page.origins = &samples->origins;
   }
   writePage(page, std::move(run), plan.picture, progress.part(0.5, 1));
+}
+
+/// The example and the result as relief at one scale, with their streams, in light from the
+/// northwest and, below, from the northeast.
+Image8 reliefOf(const HeightMap& example, const HeightMap& result, const RenderOptions& picture,
+                const Progress& progress) {
+  const ReliefMap maps[] = {{&example.heights, example.cellSize},
+                            {&result.heights, result.cellSize}};
+  ReliefOptions options{.azimuths = {1.75 * std::numbers::pi, 0.25 * std::numbers::pi}};
+  options.streamCells =
+      static_cast<std::uint32_t>(std::max<std::size_t>(2, example.heights.count() / 400));
+  options.longest = std::max(picture.width, picture.height);
+  return renderRelief(maps, options, progress);
 }
 
 /// How large the result was asked to be, in sizes of the example.
@@ -312,6 +330,11 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
   if (!options.preview.empty() && result.form() == Form::Map) {
     writeMapLayer(options.preview, result.map().layers.front());
     terminal.wrote("picture", options.preview, options.preview);
+  } else if (!options.preview.empty() && result.form() == Form::Heights) {
+    writePng(options.preview, reliefOf(examples.front().heights(), result.heights(), plan.picture,
+                                       progress.part(0.9, 0.95)));
+    terminal.wrote("picture", options.preview,
+                   options.preview + ": shaded relief, the example beside the result");
   } else if (!options.preview.empty()) {
     writePng(options.preview, render(surface->mesh, plan.picture, progress.part(0.9, 0.95)));
     terminal.wrote("picture", options.preview, options.preview);
@@ -391,6 +414,8 @@ void addSettings(CLI::App& command, Settings& into) {
   }
   options.add("Reading a mesh as polygons", "polygons", readingSettings(Form::Polygons).settings());
   options.add("Reading a picture as a map", "maps", readingSettings(Form::Map).settings());
+  options.add("Reading a height map for terrain", "heights",
+              readingSettings(Form::Heights).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Field).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Labels).settings());
   options.add("The result's surface", "", surfaceSettings(Form::Polygons).settings());
@@ -414,7 +439,7 @@ Command addSynthCommand(CLI::App& app) {
                                "distances ") +
                        outputEndings(Form::Field) + ", of labels " + outputEndings(Form::Labels) +
                        ", of polygons " + outputEndings(Form::Polygons) + ", of maps " +
-                       outputEndings(Form::Map))
+                       outputEndings(Form::Map) + ", of terrain " + outputEndings(Form::Heights))
       ->required()
       ->allow_extra_args(false);
   command
@@ -428,7 +453,7 @@ Command addSynthCommand(CLI::App& app) {
   command
       ->add_option("--engine", options->engine,
                    "what makes it (auto: model for labels and scenes of pieces, continuous "
-                   "for scenes of solids, else geometry)")
+                   "for scenes of solids, terrain for height maps, else geometry)")
       ->option_text("auto" + names);
   command
       ->add_option("--with", options->with,

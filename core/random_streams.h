@@ -31,6 +31,9 @@ enum Name : std::uint32_t {
   kLayers = 0x4C594552,         ///< the shapes of layers
   kLayerClusters = 0x4C594343,  ///< where clusters of neighborhoods begin
   kTextureStart = 0x4C595458,   ///< where a texture's pixels first come from
+  // synth/terrain
+  kTerrainStart = 0x54455253,    ///< which regions a terrain begins with
+  kTerrainPatches = 0x54455250,  ///< where patches of heights are looked for
   // synth/continuous
   kFigureChoice = 0x46494731,    ///< which figure a vertex takes
   kFigureLearning = 0x46494732,  ///< trial results in which weights are learned

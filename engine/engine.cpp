@@ -95,7 +95,7 @@ Result Engine::run(std::span<const Example> examples, const Request& request,
 std::span<const Engine* const> engines() {
   static const Engine* const all[] = {&geometryEngine(), &quiltingEngine(), &votingEngine(),
                                       &blocksEngine(),   &modelEngine(),    &continuousEngine(),
-                                      &layeredEngine()};
+                                      &layeredEngine(),  &terrainEngine()};
   return all;
 }
 
@@ -116,6 +116,8 @@ const Engine& engineFor(const Source& source) {
       return modelEngine();
     case SourceKind::Solids:
       return continuousEngine();
+    case SourceKind::HeightMap:
+      return terrainEngine();
     default:
       return geometryEngine();
   }

@@ -56,12 +56,12 @@ class Engine {
                             const Progress& progress) const = 0;
 };
 
-/// All engines: geometry, quilting, voting, blocks, model, continuous.
+/// All engines: geometry, quilting, voting, blocks, model, continuous, layered, terrain.
 std::span<const Engine* const> engines();
 /// The engine of a name. Throws `InputError` naming all.
 const Engine& engineNamed(std::string_view name);
 /// The engine that a source asks for: model where it holds labels, continuous where it holds solids
-/// between planes, else geometry.
+/// between planes, terrain where it is a height map, else geometry.
 const Engine& engineFor(const Source& source);
 
 /// Everything that can be set for an engine: of the request, of reading an example in its form, its

@@ -23,5 +23,7 @@ const Engine& modelEngine();
 const Engine& continuousEngine();
 /// Layered shape synthesis (Rosenberger, Cohen-Or, Lischinski 2009; `synth/layered`).
 const Engine& layeredEngine();
+/// Terrain synthesis (`synth/terrain`).
+const Engine& terrainEngine();
 
 }  // namespace exemplar

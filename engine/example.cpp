@@ -213,6 +213,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       grid(),
       meshUpRow(),
       normalsRow()};
+  static const SettingTable<O> heights{cellSize(), heightScale()};
   static const SettingTable<O> maps{
       {{.key = "channel",
         .type = SettingType::Text,
@@ -229,6 +230,8 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       return labels;
     case Form::Polygons:
       return polygons;
+    case Form::Heights:
+      return heights;
     default:
       return maps;
   }
@@ -258,6 +261,8 @@ Example readExample(const Source& source, const ReadOptions& options, const Prog
     readAsField(example, progress);
   } else if (example.reading.form == Form::Map) {
     readAsMap(example, progress);
+  } else if (example.reading.form == Form::Heights) {
+    readAsHeights(example, progress);
   } else if (example.reading.form == Form::Polygons) {
     readAsPolygons(example, progress);
   } else {
@@ -288,6 +293,7 @@ std::vector<Example> readExamples(std::span<const Source> sources, const ReadOpt
       throw InputError(sources[n].name() + " and " + sources[0].name() +
                        " are of different kinds; examples that are used together should be alike");
     }
+    if (n > 0 && examples[n].form() == Form::Heights) requireAlike(examples[n], examples[0]);
     if (n > 0 && examples[n].form() == Form::Field) sampleAlike(examples[n], examples[0], part);
   }
   if (examples[0].form() == Form::Labels) numberAlike(examples);

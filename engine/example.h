@@ -40,10 +40,12 @@ enum class Form {
   Labels,    ///< a grid of labels (model synthesis)
   Polygons,  ///< solids between planes (continuous model synthesis)
   Map,       ///< pictures seen from above (layered shape synthesis)
+  Heights,   ///< height maps (terrain synthesis)
 };
 
 /// An example, or a result, as an engine sees it. In the order of `Form`.
-using Representation = std::variant<DistanceField, LabelGrid, continuous::PolygonModel, Map>;
+using Representation =
+    std::variant<DistanceField, LabelGrid, continuous::PolygonModel, Map, HeightMap>;
 
 /// How distances become labels: blocks of the field.
 struct LabeledField {
@@ -78,7 +80,8 @@ inline constexpr double kExampleHalfWidth = 16;
 
 /// How an example is read and sampled. What is left out follows from the kind of example.
 struct ReadOptions {
-  /// Labels for grids of labels and scenes of pieces, Polygons for scenes of solids, else Field.
+  /// Labels for grids of labels and scenes of pieces, Polygons for scenes of solids, else Field; an
+  /// engine's own (`Engine::form`) where it is read for one.
   std::optional<Form> form;
   /// Samples (Field) or cells (Labels) along the longest side, 4..4096 and 1..4096.
   std::optional<int> resolution;
@@ -154,6 +157,7 @@ struct Example {
     return std::get<continuous::PolygonModel>(data);
   }
   const Map& map() const { return std::get<Map>(data); }
+  const HeightMap& heights() const { return std::get<HeightMap>(data); }
   std::string name() const { return source.name(); }
 };
 
@@ -163,7 +167,7 @@ struct Example {
 /// are windows into something larger, and get none. As labels: a mesh or scene is cut into model
 /// pieces along `cell` or the scene's own grid; a picture into its pieces; what has no grid (a mesh
 /// without `cell`, a height map, a volume) is sampled as a field, whose blocks are labels.
-/// As a map: a picture, with the further pictures of its `channels`.
+/// As a map: a picture, with the further pictures of its `channels`. As heights: a height map.
 /// As polygons: a scene of solids, or a closed mesh, which is snapped to a grid.
 /// Throws `InputError` and `Cancelled`.
 Example readExample(const Source& source, const ReadOptions& options = {},

@@ -11,7 +11,7 @@
 #include "engine/example.h"
 #include "mesh/scene.h"
 
-/// The two ways of reading an example; what `readExample` calls.
+/// The ways of reading an example; what `readExample` calls.
 namespace exemplar {
 
 /// Fills the example whose source, kind and reading options are set, as distances or as labels.
@@ -19,6 +19,7 @@ void readAsField(Example& example, const Progress& progress);
 void readAsLabels(Example& example, const Progress& progress);
 void readAsPolygons(Example& example, const Progress& progress);
 void readAsMap(Example& example, const Progress& progress);
+void readAsHeights(Example& example, const Progress& progress);
 /// Gives the faces of a result the material and texture coordinates of a face of the example's mesh
 /// that has the same substance and looks the same way: its origin, of which that with most area
 /// counts. `faces` says which polygon each triangle is a part of.
@@ -30,6 +31,9 @@ Scene readSceneOf(const Source& source, const ReadOptions& options, const Progre
 
 /// Samples an example with the voxels of `first`. Throws `InputError` for a volume of others.
 void sampleAlike(Example& example, const Example& first, const Progress& progress);
+
+/// Throws `InputError` where a height map has other cells than `first`.
+void requireAlike(const Example& example, const Example& first);
 
 /// Gives the examples, all labels, one numbering of labels.
 void numberAlike(std::vector<Example>& examples);

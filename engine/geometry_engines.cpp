@@ -332,7 +332,7 @@ class GeometryEngine final : public FieldEngine {
   std::string_view name() const override { return "geometry"; }
   std::string_view meaning() const override {
     return "quilting where the example and the request suit it, else voting; the default for "
-           "meshes, volumes and height maps";
+           "meshes and volumes";
   }
   bool mixes() const override { return true; }
   std::span<const Setting> settings() const override { return votingEngine().settings(); }

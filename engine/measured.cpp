@@ -28,7 +28,9 @@ std::optional<Measures> measure(const Result& result, std::span<const Example> e
     input.origins = &result.origins;
     return measure(example.field(), result.field(), input, {}, progress);
   }
-  if (result.form() == Form::Polygons || result.form() == Form::Map) return std::nullopt;
+  if (result.form() == Form::Polygons || result.form() == Form::Map ||
+      result.form() == Form::Heights)
+    return std::nullopt;
   const std::optional<SampledResult> placed = sampled(result, example);
   if (!placed) return std::nullopt;
   input.origins = &placed->origins;
@@ -59,6 +61,23 @@ std::optional<TerrainLikeness> measureTerrain(const Result& result,
                                               std::span<const Example> examples,
                                               const Progress& progress) {
   const Example& example = examples.front();
+  if (result.form() == Form::Heights) {
+    const HeightMap &wanted = example.heights(), &made = result.heights();
+    Grid<std::uint8_t> seams(made.width(), made.height());
+    const Grid<HeightOrigin>& origins = result.heightOrigins;
+    for (int y = 0; y < made.height(); ++y) {
+      for (int x = 0; x < made.width(); ++x) {
+        const HeightOrigin& here = origins(x, y);
+        if (x + 1 < made.width() && !(origins(x + 1, y) == stepped(here, {1, 0})))
+          seams(x, y) |= kSeamRight;
+        if (y + 1 < made.height() && !(origins(x, y + 1) == stepped(here, {0, 1})))
+          seams(x, y) |= kSeamBelow;
+      }
+    }
+    return measureTerrain(wanted.heights, made.heights,
+                          {.cellSize = wanted.cellSize, .meters = wanted.cellSizeKnown}, &seams,
+                          progress);
+  }
   if (result.form() != Form::Field || example.kind != SourceKind::HeightMap) return std::nullopt;
   const HeightMap wanted = sdfToHeightMap(example.field(), progress.part(0, 0.05));
   const HeightMap made = sdfToHeightMap(result.field(), progress.part(0.05, 0.1));

@@ -116,6 +116,16 @@ Written writeField(const fs::path& path, const Result& result, const Example& ex
   return written;
 }
 
+/// Heights in the units and steps of their example.
+Written writeHeights(const fs::path& path, const Result& result, const Example& example,
+                     const Progress& progress) {
+  Written written{path, "heights", path.string(), {}};
+  writeHeightMap(path, result.heights(),
+                 {.heightScale = example.reading.heightScale, .warnings = &written.warnings},
+                 progress);
+  return written;
+}
+
 /// Triangles as a file of meshes.
 /// More than engines and editors take gladly.
 constexpr std::size_t kManyTriangles = 500'000;
@@ -145,6 +155,8 @@ const char* outputEndings(Form form) {
       return ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf .gif";
     case Form::Map:
       return ".png";
+    case Form::Heights:
+      return ".asc .tif .tiff .exr .png .pgm .r16 .obj .ply .stl .off .glb .gltf";
     default:
       return kMeshEndings;
   }
@@ -226,6 +238,7 @@ Written writeResult(const fs::path& path, const Result& result, std::span<const 
                           progress);
   }
   if (result.form() == Form::Map) return writeMap(path, result.map(), options);
+  if (result.form() == Form::Heights) return writeHeights(path, result, example, progress);
   if (result.form() == Form::Field) return writeField(path, result, example, progress);
   if (!result.laterFrames.empty()) return writeFrames(path, result, example, options, progress);
   OutputOptions written = options;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "engine/example_forms.h"
+#include "engine/height_mesh.h"
 #include "engine/words.h"
 #include "mesh/footprint.h"
 #include "reconstruct/copy_triangles.h"
@@ -146,6 +147,12 @@ Surface realize(const Result& result, std::span<const Example> examples,
   if (result.form() == Form::Map) throw InputError("a map has no surface; write a .png");
   requireSurface(options, examples);
   Surface surface;
+  if (result.form() == Form::Heights) {
+    surface.mesh = meshOfHeights(result.heights(), progress.part(0, 0.7));
+    surface.health = meshHealth(surface.mesh, progress.part(0.7, 1));
+    nameAfter(examples.front(), surface.mesh);
+    return surface;
+  }
   if (result.form() == Form::Polygons) {
     surface.mesh = continuous::triangulate(
         result.polygons(), options.shells ? continuous::Faces::Shells : continuous::Faces::Seen,
@@ -204,6 +211,7 @@ Surface contourOf(const Example& example, const SurfaceOptions& options, const P
 TriangleMesh pictured(const Example& example, const Progress& progress) {
   if (example.form() == Form::Map)
     throw InputError(example.name() + ": a map is a picture already");
+  if (example.form() == Form::Heights) return meshOfHeights(example.heights(), progress);
   if (example.form() == Form::Polygons) return *example.mesh;
   if (example.form() == Form::Labels) {
     if (const auto* labeled = std::get_if<LabeledField>(&example.content)) {

@@ -39,11 +39,13 @@ std::span<const Setting> requestSettings() {
     settings.push_back({.key = "keep",
                         .type = SettingType::File,
                         .meaning = "a solid (mesh or .vdb) in the example's coordinates: what is "
-                                   "inside stays as it is, and all else is made of it"});
+                                   "inside stays as it is, and all else is made of it; of a height "
+                                   "map a gray picture: what is white stays"});
     settings.push_back({.key = "guide",
                         .type = SettingType::File,
                         .meaning = "a volume, mesh or height map, stretched to the result's box, "
-                                   "that says coarsely where solid should be"});
+                                   "that says coarsely where solid should be; of terrain rough "
+                                   "heights, or lines of ridges and valleys (.csv)"});
     settings.push_back({.key = "pin",
                         .type = SettingType::Text,
                         .meaning = "a cell that must have one of some labels: X,Y,Z=LABEL,...",

@@ -26,7 +26,7 @@ struct Pin {
 /// What is decided before an engine begins.
 struct Decided {
   /// Field: a solid (mesh or volume) in the example's coordinates. What is inside stays as it is in
-  /// the example, to the bit.
+  /// the example, to the bit. Heights: a gray picture, in which that is white.
   std::optional<Source> keep;
   /// Labels: cells that are decided.
   std::vector<Pin> pins;
@@ -40,7 +40,7 @@ struct Request {
   Axes periodic;  ///< along which copies of the result tile
   Decided decided;
   /// Field: a volume, mesh or height map, stretched to the result's box, that says coarsely where
-  /// solid should be.
+  /// solid should be; Heights: rough heights, or a file of ridges and valleys.
   std::optional<Source> guide;
   ReadOptions reading;  ///< how what is kept and the guide are read
   /// The engine's own settings (`Engine::settings`), by their keys.

@@ -21,6 +21,9 @@ std::string readableExtent(const Result& result) {
     case Form::Map:
       return std::to_string(result.map().width()) + " x " + std::to_string(result.map().height()) +
              " pixels";
+    case Form::Heights:
+      return withThousands(result.heights().width()) + " x " +
+             withThousands(result.heights().height()) + " points";
     default: {
       const continuous::PolygonModel& model = result.polygons();
       return readableSize(model.size, "spacings") + ", " +

@@ -15,6 +15,7 @@
 #include "core/outcome.h"
 #include "engine/example.h"
 #include "maps/layer_map.h"
+#include "synth/terrain/height_origin.h"
 
 /// What came out of an engine.
 namespace exemplar {
@@ -47,6 +48,8 @@ struct Result {
   /// example with its label.
   Origins origins;
 
+  /// Of heights: where each came from.
+  Grid<HeightOrigin> heightOrigins;
   /// Of a map that was made by layers: which layer shows, in the example and in the result.
   std::optional<LayerMap> exampleLayers, layers;
 
@@ -60,6 +63,7 @@ struct Result {
   const DistanceField& field() const { return std::get<DistanceField>(data); }
   const LabelGrid& labels() const { return std::get<LabelGrid>(data); }
   const Map& map() const { return std::get<Map>(data); }
+  const HeightMap& heights() const { return std::get<HeightMap>(data); }
   const continuous::PolygonModel& polygons() const {
     return std::get<continuous::PolygonModel>(data);
   }

@@ -74,9 +74,9 @@ Json toJson(const Setting& setting) {
   return json;
 }
 
-/// "distances", "labels", "polygons".
+/// "distances", "labels", ...
 std::string_view formName(Form form) {
-  constexpr std::string_view kNames[] = {"distances", "labels", "polygons", "maps"};
+  constexpr std::string_view kNames[] = {"distances", "labels", "polygons", "maps", "height maps"};
   return kNames[static_cast<std::size_t>(form)];
 }
 
@@ -107,6 +107,8 @@ std::string settingsPage() {
   text +=
       "\n## Reading an example as polygons\n\n" + table(readingSettings(Form::Polygons).settings());
   text += "\n## Reading an example as a map\n\n" + table(readingSettings(Form::Map).settings());
+  text += "\n## Reading a height map for terrain\n\n" +
+          table(readingSettings(Form::Heights).settings());
   text += "\n## The surface of a result\n\nOf distances:\n\n" +
           table(surfaceSettings(Form::Field).settings()) + "\nOf labels:\n\n" +
           table(surfaceSettings(Form::Labels).settings()) + "\nOf polygons:\n\n" +

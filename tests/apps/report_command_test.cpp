@@ -80,8 +80,9 @@ TEST_F(ReportOption, WithoutOriginsHasNoMarks) {
 }
 
 TEST_F(ReportOption, IsRefusedBeforeAnyWork) {
-  for (const std::string command : {"synth hills.pgm -o more.vdb", "measure hills.pgm hills.pgm",
-                                    "synth hills.pgm --engine model -o more.obj"}) {
+  for (const std::string command :
+       {"synth hills.pgm --engine geometry -o more.vdb", "measure hills.pgm hills.pgm",
+        "synth hills.pgm --engine model -o more.obj"}) {
     const CommandResult outcome = run(command + " --report page.pdf");
     EXPECT_EQ(outcome.status, 2) << command;
     EXPECT_THAT(outcome.err, HasSubstr(".html"));

@@ -6,11 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
 #include "maps/height_map_file.h"
+#include "mesh/image.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
 #include "mesh/scene.h"
@@ -97,20 +99,45 @@ TEST(SynthCommand, AFieldAndItsOriginsAgree) {
   }
 }
 
-TEST(SynthCommand, AHeightMapGivesAHeightMapOrAMesh) {
+TEST(SynthCommand, AHeightMapGivesMoreOfItInItsUnits) {
+  const TestFolder folder;
+  HeightMap map{Grid<float>(48, 40), 25};
+  for (int n = 0; n < 48 * 40; ++n)
+    map.heights[n] = static_cast<float>(-3.25 + (n % 48 * 7 + n / 48 * 5) % 90);
+  writeHeightMap(folder / "e.asc", map);
+  ASSERT_EQ(runExemplar("synth e.asc --scale 1.5,2,1 -o o.asc -o o.obj --preview p.png --stats "
+                        "s.json",
+                        folder.path())
+                .status,
+            0);
+  const HeightMap result = readHeightMap(folder / "o.asc");
+  EXPECT_EQ(result.width(), 72);
+  EXPECT_EQ(result.height(), 80);
+  EXPECT_EQ(result.cellSize, 25);
+  EXPECT_LT(*std::ranges::min_element(result.heights.values()), 20);
+  EXPECT_GT(*std::ranges::max_element(result.heights.values()), 50);
+  EXPECT_TRUE(meshHealth(readMesh(folder / "o.obj")).manifold());
+  EXPECT_GT(readPng16(folder / "p.png").height, 2 * 80);
+  const auto stats = nlohmann::json::parse(readFile(folder / "s.json"));
+  EXPECT_EQ(stats["engine"], "terrain");
+}
+
+TEST(SynthCommand, AHeightMapAsAVolumeGivesAHeightMapOrAMesh) {
   const TestFolder folder;
   HeightMap map{Grid<float>(48, 48), 1};
   for (int n = 0; n < 48 * 48; ++n)
     map.heights[n] = static_cast<float>(100 + (n % 48 * 7 + n / 48 * 5) % 90);
   writeHeightMap(folder / "e.pgm", map, {.heightScale = 1});
   ASSERT_EQ(
-      runExemplar(std::string("synth e.pgm --cell-size 10") + kQuick + "-o o.png", folder.path())
+      runExemplar(std::string("synth e.pgm --engine geometry --cell-size 10") + kQuick + "-o o.png",
+                  folder.path())
           .status,
       0);
   const HeightMap result = readHeightMap(folder / "o.png");
   EXPECT_GT(result.width(), 32);
   ASSERT_EQ(
-      runExemplar(std::string("synth e.pgm --cell-size 10") + kQuick + "-o o.obj", folder.path())
+      runExemplar(std::string("synth e.pgm --engine geometry --cell-size 10") + kQuick + "-o o.obj",
+                  folder.path())
           .status,
       0);
   EXPECT_TRUE(meshHealth(readMesh(folder / "o.obj")).closed());
@@ -167,7 +194,7 @@ TEST(SynthCommand, AnOptionOfAnotherEngineIsRefusedWithTheEnginesThatHaveIt) {
             "blocks, model and continuous have"},
            {scene("chainmail") + " --seeding masked", "blocks has"},
            {scene("chainmail") + " --engine blocks --periodic x",
-            "geometry, quilting, voting and model have"},
+            "geometry, quilting, voting, model and terrain have"},
            {scene("castle") + " --surface copy", "geometry, quilting, voting and blocks have"},
            {"--instances " + scene("chainmail"), "--instances: the engine geometry has no such"}}) {
     const auto run = runExemplar("synth " + arguments + " -o o.glb", folder.path());

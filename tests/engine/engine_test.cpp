@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <cmath>
 #include <set>
 
 #include "core/error.h"
@@ -44,7 +45,21 @@ Example discs() {
   return example;
 }
 
+/// Waves of two directions.
+HeightMap waves(int width, int height) {
+  HeightMap map{Grid<float>(width, height), 2};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      map.heights(x, y) =
+          static_cast<float>(10 * std::sin(0.2 * x) + 7 * std::sin(0.3 * y + 1) + 0.1 * x);
+    }
+  }
+  return map;
+}
+
 Example exampleFor(const Engine& engine) {
+  if (engine.form() == Form::Heights)
+    return readExample(Source::of(waves(50, 44)), {.form = Form::Heights});
   if (engine.form() == Form::Map) return discs();
   if (engine.form() == Form::Polygons)
     return readExample(Source::of(boxes()), {.form = Form::Polygons});
@@ -54,10 +69,11 @@ Example exampleFor(const Engine& engine) {
 /// A small request that an engine answers quickly.
 Request smallRequest(const Engine& engine, std::uint64_t seed = 0) {
   Request request;
-  request.extent.size = engine.form() == Form::Field    ? Vec3i{36, 30, 12}
-                        : engine.form() == Form::Labels ? Vec3i{14, 12, 1}
-                        : engine.form() == Form::Map    ? Vec3i{48, 40, 1}
-                                                        : Vec3i{20, 10, 4};
+  request.extent.size = engine.form() == Form::Field     ? Vec3i{36, 30, 12}
+                        : engine.form() == Form::Labels  ? Vec3i{14, 12, 1}
+                        : engine.form() == Form::Map     ? Vec3i{48, 40, 1}
+                        : engine.form() == Form::Heights ? Vec3i{72, 60, 1}
+                                                         : Vec3i{20, 10, 4};
   request.seed = seed;
   if (engine.name() == "blocks") request.settings = {{"block", "8"}};
   if (engine.form() == Form::Map) request.settings = {{"layers", "2"}, {"neighborhood", "5"}};
@@ -72,10 +88,12 @@ TEST(Engines, AreFoundByNameAndByWhatTheExampleIs) {
   }
   EXPECT_EQ(engineFor(Source::of(rings())).name(), "model");
   EXPECT_EQ(engineFor(Source::of(boxes())).name(), "geometry");
-  EXPECT_EQ(engineFor("castle.png").name(), "geometry");
+  EXPECT_EQ(engineFor("castle.png").name(), "terrain");
+  EXPECT_EQ(engineFor(Source::of(waves(20, 20))).name(), "terrain");
   EXPECT_THAT([] { engineNamed("best"); },
               ThrowsMessage<InputError>(HasSubstr(
-                  "expected geometry, quilting, voting, blocks, model, continuous or layered")));
+                  "expected geometry, quilting, voting, blocks, model, continuous, layered or "
+                  "terrain")));
 }
 
 TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
@@ -96,6 +114,15 @@ TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
       EXPECT_NEAR(areaOf(layerShape(*result.layers, 2)),
                   areaOf(layerShape(*result.exampleLayers, 2)), 1e-3);
       EXPECT_THROW(realize(result, {&example, 1}), InputError);
+      continue;
+    } else if (engine->form() == Form::Heights) {
+      EXPECT_EQ(result.heights().width(), 72);
+      EXPECT_EQ(result.heights().height(), 60);
+      EXPECT_EQ(result.heights().cellSize, 2);
+      ASSERT_EQ(result.heightOrigins.count(), result.heights().heights.count());
+      for (const HeightOrigin& origin : result.heightOrigins.values())
+        ASSERT_TRUE(origin.x >= 0 && origin.x < 50 && origin.y >= 0 && origin.y < 44);
+      EXPECT_TRUE(realize(result, {&example, 1}).health.manifold());
       continue;
     } else {
       ASSERT_EQ(result.origins.size(), *request.extent.size);
@@ -131,6 +158,9 @@ TEST(Engines, GiveTheSameBytesAtOneAndEightThreads) {
     } else if (engine->form() == Form::Map) {
       EXPECT_EQ(one.map().layers[0].planes, eight.map().layers[0].planes);
       EXPECT_EQ(*one.layers, *eight.layers);
+    } else if (engine->form() == Form::Heights) {
+      EXPECT_EQ(one.heights().heights, eight.heights().heights);
+      EXPECT_EQ(one.heightOrigins, eight.heightOrigins);
     } else {
       EXPECT_EQ(one.labels().cells, eight.labels().cells);
     }
@@ -151,7 +181,8 @@ TEST(Engines, WhatAnEngineDoesNotHaveIsRefusedNamingThoseThatDo) {
   request.periodic = {true, false, false};
   EXPECT_THAT([&] { runOn(blocksEngine(), example, request); },
               ThrowsMessage<InputError>(HasSubstr(
-                  "the engine blocks has no such setting; geometry, quilting, voting and model")));
+                  "the engine blocks has no such setting; geometry, quilting, voting, model and "
+                  "terrain")));
   EXPECT_THAT(
       [] {
         checkSettings(modelEngine(), {{"unheard-of", "1"}});

@@ -1,0 +1,111 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "maps/grid.h"
+#include "synth/terrain/height_origin.h"
+
+/// Patches of heights: which piece of an example has the shape that a piece of the result has,
+/// wherever it lies in height (after Barnes, Shechtman, Finkelstein, Goldman: "PatchMatch",
+/// SIGGRAPH 2009, doi:10.1145/1531326.1531330, and Kwatra, Essa, Bobick, Kwatra: "Texture
+/// optimization for example-based synthesis", SIGGRAPH 2005, doi:10.1145/1073204.1073263).
+namespace exemplar {
+
+/// Side of a patch, samples.
+inline constexpr int kHeightPatch = 8;
+
+/// One resolution of an example. Samples without data are NaN.
+struct HeightSource {
+  Grid<float> heights;
+  /// How much water comes to a sample, on a scale of logarithms; of the size of `heights`, or
+  /// empty.
+  Grid<float> flow;
+  /// 1 where the patch whose first sample this is lies inside and has no holes.
+  Grid<std::uint8_t> whole;
+  std::size_t places = 0;  ///< how many patches are whole
+};
+/// A resolution, with `whole` found.
+HeightSource heightSource(Grid<float> heights, Grid<float> flow = {});
+
+/// Where a patch of the result comes from: the first (top left) sample of the example's patch.
+struct HeightMatch {
+  std::int16_t x = 0, y = 0;
+  std::uint8_t example = 0, turn = 0;
+  float cost = 0;
+};
+
+struct HeightMatching {
+  double slopes = 4;      ///< what differences of steps count beside those of heights; >= 0
+  double level = 0.05;    ///< what the difference of mean heights counts; 0: nothing, 1: heights as
+                          ///< they are
+  double flow = 0;        ///< what differences of `flow` count; >= 0
+  double evenness = 0.5;  ///< what it costs to use a place more often than others; >= 0
+  int stride = 2;         ///< samples from patch to patch, 1..kHeightPatch
+  std::vector<int> turns{0};  ///< of `turnedStep`: the orientations in which patches are used
+  bool wrapsX = false, wrapsY = false;
+};
+
+/// The patches of a result of some size, and where each comes from.
+class HeightField {
+ public:
+  HeightField(int width, int height, const HeightMatching& matching);
+
+  int columns() const { return static_cast<int>(xs_.size()); }
+  int rows() const { return static_cast<int>(ys_.size()); }
+  /// The first sample of a patch.
+  Pixel place(int column, int row) const {
+    return {xs_[static_cast<std::size_t>(column)], ys_[static_cast<std::size_t>(row)]};
+  }
+  Grid<HeightMatch>& matches() { return matches_; }
+  const Grid<HeightMatch>& matches() const { return matches_; }
+
+  /// Searches around what there is: each patch takes what its neighbors' places suggest and
+  /// `tries` random places around its own where they are nearer; `round` numbers the draws.
+  void search(std::span<const HeightSource> sources, const Grid<float>& heights,
+              const Grid<float>& flow, std::uint64_t seed, std::uint64_t round, int tries,
+              const Progress& progress);
+  /// Looks at every place of the examples in every orientation. O(patches x places): for small
+  /// maps.
+  void searchAll(std::span<const HeightSource> sources, const Grid<float>& heights,
+                 const Grid<float>& flow, const Progress& progress);
+
+  /// The heights that the patches give, each at the height where it fits: their mean at each
+  /// sample, of which a patch counts most at its middle. `heights` are what the patches were fitted
+  /// to.
+  Grid<float> vote(std::span<const HeightSource> sources, const Grid<float>& heights,
+                   const Progress& progress) const;
+  /// For each sample the origin on which most of the patches over it agree.
+  Grid<HeightOrigin> origins(const Progress& progress) const;
+  /// Moves what comes from places with holes to whole ones nearby.
+  void leaveHoles(std::span<const HeightSource> sources);
+  /// Takes the origins of a result of half the resolution.
+  void inherit(const Grid<HeightOrigin>& coarse, std::span<const HeightSource> sources);
+
+ private:
+  struct Query;
+  void countUses(std::span<const HeightSource> sources);
+  void addUse(const HeightMatch& match, float by);
+  double costOf(const HeightSource& source, const Query& query, const HeightMatch& match) const;
+  void fetch(const Grid<float>& heights, const Grid<float>& flow, int column, int row,
+             Query& query) const;
+  bool consider(std::span<const HeightSource> sources, const Query& query,
+                const HeightMatch& candidate, HeightMatch& best) const;
+  template <class Body>
+  void forPatchesOver(int x, int y, const Body& body) const;
+
+  int width_, height_;
+  HeightMatching matching_;
+  std::vector<int> xs_, ys_;
+  Grid<HeightMatch> matches_;
+  std::vector<Grid<float>> uses_;  // of blocks of the examples, 1 on average
+  float usesEach_ = 1;             // how many patches that is
+};
+
+}  // namespace exemplar

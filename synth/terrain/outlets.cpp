@@ -1,0 +1,257 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/terrain/outlets.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace exemplar {
+namespace {
+
+constexpr std::array<Pixel, 8> kSteps{
+    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+constexpr std::uint8_t kOutlet = 8, kUnseen = 9;
+
+/// Samples in the order of their heights, first come first served among about equal ones: a queue
+/// of 2^18 buckets, in constant time.
+class HeightQueue {
+ public:
+  HeightQueue(std::size_t samples, float least, float most)
+      : least_(least),
+        scale_(most > least ? static_cast<float>(kBuckets - 1) / (most - least) : 0),
+        next_(samples),
+        first_(kBuckets, kNone),
+        last_(kBuckets, kNone) {}
+
+  void push(std::uint32_t sample, float height) {
+    const float place = (height - least_) * scale_;
+    const auto bucket =
+        static_cast<std::uint32_t>(std::clamp(place, 0.0f, static_cast<float>(kBuckets - 1)));
+    next_[sample] = kNone;
+    if (first_[bucket] == kNone) {
+      first_[bucket] = sample;
+      fine_[bucket >> 6] |= std::uint64_t{1} << (bucket & 63);
+      middle_[bucket >> 12] |= std::uint64_t{1} << ((bucket >> 6) & 63);
+      coarse_ |= std::uint64_t{1} << (bucket >> 12);
+    } else {
+      next_[last_[bucket]] = sample;
+    }
+    last_[bucket] = sample;
+  }
+  bool empty() const { return coarse_ == 0; }
+  std::uint32_t pop() {
+    const auto c = static_cast<std::uint32_t>(std::countr_zero(coarse_));
+    const auto m = (c << 6) | static_cast<std::uint32_t>(std::countr_zero(middle_[c]));
+    const auto bucket = (m << 6) | static_cast<std::uint32_t>(std::countr_zero(fine_[m]));
+    const std::uint32_t sample = first_[bucket];
+    first_[bucket] = next_[sample];
+    if (first_[bucket] == kNone) {
+      fine_[m] &= fine_[m] - 1;
+      if (fine_[m] == 0) middle_[c] &= middle_[c] - 1;
+      if (middle_[c] == 0) coarse_ &= coarse_ - 1;
+    }
+    return sample;
+  }
+
+ private:
+  static constexpr std::uint32_t kBuckets = 1u << 18, kNone = 0xffffffffu;
+  float least_, scale_;
+  std::vector<std::uint32_t> next_, first_, last_;
+  std::array<std::uint64_t, kBuckets / 64> fine_{};
+  std::array<std::uint64_t, kBuckets / 4096> middle_{};
+  std::uint64_t coarse_ = 0;
+};
+
+class Outlets {
+ public:
+  Outlets(Grid<float>& heights, const Grid<std::uint8_t>& held, const OutletOptions& options,
+          const Progress& progress)
+      : heights_(heights), held_(held), options_(options), progress_(progress) {
+    for (const float h : heights.values()) {
+      if (std::isnan(h)) continue;
+      least_ = std::min(least_, h);
+      most_ = std::max(most_, h);
+    }
+  }
+
+  OutletsCut run() {
+    OutletsCut made;
+    if (!(most_ > least_)) return made;
+    fill();
+    cut(made);
+    return made;
+  }
+
+ private:
+  /// The neighbor of a sample in a direction; false beyond the map.
+  bool neighbor(std::uint32_t sample, int direction, std::uint32_t& found) const {
+    const int width = heights_.width(), height = heights_.height();
+    int x = static_cast<int>(sample % static_cast<std::uint32_t>(width)) + kSteps[direction].x;
+    int y = static_cast<int>(sample / static_cast<std::uint32_t>(width)) + kSteps[direction].y;
+    if (x < 0 || x >= width) {
+      if (!options_.wrapsX) return false;
+      x = x < 0 ? width - 1 : 0;
+    }
+    if (y < 0 || y >= height) {
+      if (!options_.wrapsY) return false;
+      y = y < 0 ? height - 1 : 0;
+    }
+    found = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width) +
+            static_cast<std::uint32_t>(x);
+    return true;
+  }
+
+  bool isOutlet(std::uint32_t sample) const {
+    for (int d = 0; d < 8; ++d) {
+      std::uint32_t n;
+      if (!neighbor(sample, d, n) || std::isnan(heights_[n])) return true;
+    }
+    return false;
+  }
+
+  /// Visits every sample from the outlets upwards: `enter(sample, from)` says the height by which
+  /// it is queued.
+  template <class Enter, class Leave>
+  void flood(const Enter& enter, const Leave& leave) {
+    const std::size_t count = heights_.count();
+    HeightQueue queue(count, least_, most_);
+    toward_.assign(count, kUnseen);
+    bool any = false;
+    for (std::uint32_t s = 0; s < count; ++s) {
+      if (std::isnan(heights_[s])) {
+        toward_[s] = kOutlet;
+      } else if (isOutlet(s)) {
+        toward_[s] = kOutlet;
+        queue.push(s, heights_[s]);
+        any = true;
+      }
+    }
+    if (!any) {
+      // A torus: all water runs to its lowest place.
+      std::uint32_t lowest = 0;
+      for (std::uint32_t s = 1; s < count; ++s)
+        if (heights_[s] < heights_[lowest]) lowest = s;
+      toward_[lowest] = kOutlet;
+      queue.push(lowest, heights_[lowest]);
+    }
+    std::size_t visits = 0;
+    while (!queue.empty()) {
+      if ((++visits & 0xffff) == 0) progress_.check();
+      const std::uint32_t s = queue.pop();
+      leave(s);
+      for (int d = 0; d < 8; ++d) {
+        std::uint32_t n;
+        if (!neighbor(s, d, n) || toward_[n] != kUnseen) continue;
+        toward_[n] = static_cast<std::uint8_t>(7 - d);
+        queue.push(n, enter(n, s));
+      }
+    }
+  }
+
+  /// Fills hollows by their share.
+  void fill() {
+    if (options_.fill <= 0) return;
+    std::vector<float> level(heights_.values().begin(), heights_.values().end());
+    const auto fall = static_cast<float>(options_.fall);
+    flood([&](std::uint32_t n,
+              std::uint32_t from) { return level[n] = std::max(level[n], level[from] + fall); },
+          [](std::uint32_t) {});
+    for (std::size_t s = 0; s < level.size(); ++s) {
+      if (level[s] > heights_[s] && !isHeld(s))
+        heights_[s] += static_cast<float>(options_.fill) * (level[s] - heights_[s]);
+    }
+  }
+
+  bool isHeld(std::size_t s) const { return !held_.empty() && held_[s]; }
+
+  /// Cuts a way from every pit, by own heights: a hollow's pit is reached first over its lowest
+  /// saddle, and the way back is the way that the water takes.
+  void cut(OutletsCut& made) {
+    const float step = std::max(
+        {static_cast<float>(options_.fall), (most_ - least_) * 1e-6f, std::abs(most_) * 2.4e-7f});
+    const std::vector<float> before(heights_.values().begin(), heights_.values().end());
+    std::vector<std::uint32_t> changed;
+    flood([&](std::uint32_t n, std::uint32_t) { return heights_[n]; },
+          [&](std::uint32_t s) {
+            if (toward_[s] == kOutlet || !isPit(s)) return;
+            float target = heights_[s];
+            bool any = false;
+            for (std::uint32_t at = s; toward_[at] != kOutlet;) {
+              neighbor(at, toward_[at], at);
+              target -= step;
+              if (heights_[at] <= target || isHeld(at)) break;
+              heights_[at] = target;
+              changed.push_back(at);
+              any = true;
+            }
+            made.outlets += any;
+          });
+    shapeBanks(changed, before);
+    double sum = 0;
+    for (std::size_t s = 0; s < before.size(); ++s) {
+      const double depth = before[s] - heights_[s];
+      if (!(depth > 0)) continue;
+      sum += depth;
+      made.deepest = std::max(made.deepest, depth);
+    }
+    made.mean = sum / static_cast<double>(before.size());
+  }
+
+  bool isPit(std::uint32_t s) const {
+    for (int d = 0; d < 8; ++d) {
+      std::uint32_t n;
+      if (neighbor(s, d, n) && heights_[n] < heights_[s]) return false;
+    }
+    return true;
+  }
+
+  /// Lowers what stands steeper beside a cut than banks do. What is lowered still falls to the cut.
+  void shapeBanks(const std::vector<std::uint32_t>& changed, const std::vector<float>& before) {
+    if (!std::isfinite(options_.bank)) return;
+    const auto bank = static_cast<float>(options_.bank);
+    std::deque<std::uint32_t> queue;
+    for (const std::uint32_t s : changed)
+      if (before[s] - heights_[s] > 0.25f * bank) queue.push_back(s);
+    std::size_t visits = 0;
+    while (!queue.empty()) {
+      if ((++visits & 0xffff) == 0) progress_.check();
+      const std::uint32_t s = queue.front();
+      queue.pop_front();
+      for (int d = 0; d < 8; ++d) {
+        std::uint32_t n;
+        if (!neighbor(s, d, n) || isHeld(n) || !(toward_[n] < kUnseen)) continue;
+        const bool straight = kSteps[d].x == 0 || kSteps[d].y == 0;
+        const float most = heights_[s] + bank * (straight ? 1.0f : 1.41421356f);
+        if (heights_[n] <= most) continue;
+        heights_[n] = most;
+        queue.push_back(n);
+      }
+    }
+  }
+
+  Grid<float>& heights_;
+  const Grid<std::uint8_t>& held_;
+  const OutletOptions& options_;
+  const Progress& progress_;
+  float least_ = std::numeric_limits<float>::infinity();
+  float most_ = -std::numeric_limits<float>::infinity();
+  std::vector<std::uint8_t> toward_;  // the direction back to the outlet
+};
+
+}  // namespace
+
+OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,
+                      const OutletOptions& options, const Progress& progress) {
+  assert(options.bank > 0);
+  return Outlets(heights, held, options, progress).run();
+}
+
+}  // namespace exemplar

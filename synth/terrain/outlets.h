@@ -1,0 +1,43 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+
+#include "core/progress.h"
+#include "maps/grid.h"
+
+/// Outlets for hollows: rivers that have somewhere to go.
+namespace exemplar {
+
+struct OutletOptions {
+  /// How far hollows are first filled, of their depth, before an outlet is cut: 0 (cut only) to 1
+  /// (filled up to where they spill over). Half moves the least earth.
+  double fill = 0.5;
+  /// How much a filled hollow and the bed of a cut fall toward their outlet, height per sample; >=
+  /// 0.
+  double fall = 0;
+  /// Slope of the banks of a cut, height per sample; > 0; infinite: cuts are one sample wide.
+  double bank = 1;
+  bool wrapsX = false, wrapsY = false;
+};
+
+/// What was done for them.
+struct OutletsCut {
+  std::int64_t outlets = 0;  ///< how many were cut
+  double mean = 0;           ///< what was taken away, a sample
+  double deepest = 0;        ///< the deepest cut
+};
+
+/// Gives every hollow an outlet: water runs from every sample down to the map's border, or, on a
+/// torus, to its lowest sample. The outlet of a hollow runs along the path on which a rising water
+/// level would leave it, over the lowest saddle (Barnes, Lehman, Mulla 2014,
+/// doi:10.1016/j.cageo.2013.04.024; Soille 2004, doi:10.1029/2004WR003060; Lindsay 2016,
+/// doi:10.1002/hyp.10648), up to 1 / 262,144 of the relief. Samples where `held` (may be empty) is
+/// not 0 stay, and so may what lies behind them. NaN samples are outlets. O(samples), one thread,
+/// 10 bytes a sample. Throws `Cancelled`.
+OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,
+                      const OutletOptions& options = {}, const Progress& progress = {});
+
+}  // namespace exemplar

@@ -1,0 +1,435 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/terrain/terrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "maps/drainage.h"
+#include "synth/terrain/gradient_domain.h"
+#include "synth/terrain/height_patches.h"
+#include "synth/terrain/height_pyramid.h"
+#include "synth/terrain/outlets.h"
+
+namespace exemplar {
+namespace {
+
+/// Least side of the examples on the coarsest resolution: room for different patches.
+constexpr int kCoarsestSide = 14;
+/// Rounds there, where the layout is found.
+constexpr int kCoarsestRounds = 8;
+/// What the height at which a patch lies counts, where the layout is found and after.
+constexpr double kCoarsestLevel = 0.3, kFinerLevel = 0.05;
+/// Patches are looked for everywhere while this many comparisons suffice for a round.
+constexpr double kMostComparisons = 2.5e6;
+/// Over how many samples heights follow the steps of their pieces rather than the vote.
+constexpr double kStepReach = 16;
+/// How far hollows are filled before an outlet is cut: little while finer resolutions still give
+/// the cut its valley, by half at the end.
+constexpr double kFillBefore = 0.2, kFillAtLast = 0.5;
+/// How much beds of cuts fall beside the larger streams of the example.
+constexpr double kFallShare = 0.5;
+/// Orientations keep a terrain's direction where they change the tensor of its gradients by no more
+/// than this share: up to about 1.8 between its axes.
+constexpr double kTurnTolerance = 0.4;
+
+/// How far the larger streams of the examples fall, height per sample.
+double streamFall(std::span<const Grid<float>> examples, const Progress& progress) {
+  double fall = 0, length = 0;
+  for (const Grid<float>& heights : examples) {
+    const Drainage drainage = drain(heights, progress);
+    const Grid<std::uint32_t> accumulation = flowAccumulation(drainage);
+    const auto least = std::max<std::size_t>(8, heights.count() / 200);
+    for (const std::uint32_t cell : drainage.order) {
+      const std::uint8_t direction = drainage.directions[cell];
+      if (accumulation[cell] < least || direction >= kLeavesMap) continue;
+      const Pixel step = kNeighbors[direction];
+      const auto down = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + step.x +
+                                                 std::ptrdiff_t{step.y} * heights.width());
+      fall += drainage.levels[cell] - drainage.levels[down];
+      length += step.x != 0 && step.y != 0 ? 1.41421356 : 1;
+    }
+  }
+  return length > 0 ? fall / length : 0;
+}
+
+template <class Body>
+void forRows(int height, const Body& body) {
+  parallelFor(0, static_cast<std::size_t>(height), 8, [&](std::size_t y0, std::size_t y1) {
+    for (std::size_t y = y0; y < y1; ++y) body(static_cast<int>(y));
+  });
+}
+
+/// What is known of the result on a resolution.
+struct LevelControl {
+  Grid<float> guide, given, hold;
+  Grid<std::uint8_t> held;  ///< 1 where nothing changes
+};
+
+class Synthesis {
+ public:
+  Synthesis(std::span<const Grid<float>> examples, const TerrainSynthesisOptions& options,
+            const Progress& progress)
+      : options_(options), levels_(levelsOf(examples, options)) {
+    turns_ = options.turns.empty() ? turnsOf(examples) : options.turns;
+    pyramid_ = heightPyramid(examples, levels_);
+    const auto hasPlaces = [](const HeightSource& source) { return source.places > 0; };
+    while (levels_ > 0 && !std::ranges::all_of(pyramid_.back().sources, hasPlaces)) {
+      pyramid_.pop_back();
+      --levels_;
+    }
+    if (levels_ == 0) {
+      throw InputError("no " + std::to_string(kHeightPatch) + " x " + std::to_string(kHeightPatch) +
+                       " samples of a height map are without holes; fill them first");
+    }
+    if (!options.keepsHollows) {
+      // In a larger result streams are longer, and the relief is the same.
+      double larger = 1;
+      for (const Grid<float>& example : examples) {
+        larger = std::max(larger, std::sqrt(static_cast<double>(options.width) * options.height /
+                                            static_cast<double>(example.count())));
+      }
+      fall_ = kFallShare * streamFall(examples, progress) / larger;
+    }
+    guideLevel_ = options.control.guideLevel < 0
+                      ? levels_ - 1
+                      : std::min(options.control.guideLevel, levels_ - 1);
+    prepareControl();
+  }
+
+  SynthesizedTerrain run(const Progress& progress) {
+    SynthesizedTerrain made;
+    made.levels = levels_;
+    made.turns = turns_;
+    Grid<float> heights;
+    Grid<HeightOrigin> origins;
+    double all = 0, done = 0;
+    for (int l = 0; l < levels_; ++l) all += std::pow(0.25, l);
+    for (int l = levels_ - 1; l >= 0; --l) {
+      const double share = std::pow(0.25, l) / all;
+      makeLevel(l, heights, origins, made, progress.part(done, std::min(1.0, done + share)));
+      done += share;
+    }
+    made.heights = std::move(heights);
+    made.origins = std::move(origins);
+    return made;
+  }
+
+ private:
+  static int levelsOf(std::span<const Grid<float>> examples,
+                      const TerrainSynthesisOptions& options) {
+    int least = std::numeric_limits<int>::max();
+    for (const Grid<float>& example : examples)
+      least = std::min({least, example.width(), example.height()});
+    const int result = std::min(options.width, options.height);
+    if (least < kLeastTerrain || result < kLeastTerrain) {
+      throw InputError("height maps have at least " + std::to_string(kLeastTerrain) + " x " +
+                       std::to_string(kLeastTerrain) + " samples; " +
+                       (least < kLeastTerrain ? "an example has a side of " + std::to_string(least)
+                                              : "the result would have " + std::to_string(result)));
+    }
+    int levels = 1;
+    while ((options.levels == 0 ? least >> levels >= kCoarsestSide
+                                : levels < options.levels && least >> levels >= kHeightPatch) &&
+           result >> levels >= kHeightPatch)
+      ++levels;
+    return levels;
+  }
+
+  Pixel sizeAt(int l) const {
+    Pixel size{options_.width, options_.height};
+    for (int n = 0; n < l; ++n) size = {(size.x + 1) / 2, (size.y + 1) / 2};
+    return size;
+  }
+
+  void prepareControl() {
+    const TerrainControl& given = options_.control;
+    controls_.resize(static_cast<std::size_t>(levels_));
+    for (int l = 0; l < levels_; ++l) {
+      LevelControl& control = controls_[static_cast<std::size_t>(l)];
+      const Pixel size = sizeAt(l);
+      if (!given.guide.empty() && l >= guideLevel_)
+        control.guide = stretched(given.guide, size.x, size.y);
+      if (given.hold.empty()) continue;
+      if (l == 0) {
+        control.given = given.given;
+        control.hold = given.hold;
+        control.held = Grid<std::uint8_t>(size.x, size.y);
+        for (std::size_t s = 0; s < control.held.count(); ++s)
+          control.held[s] = control.hold[s] >= 1;
+      } else {
+        const LevelControl& finer = controls_[static_cast<std::size_t>(l - 1)];
+        control.given = coarser(finer.given, finer.hold);
+        control.hold = coarser(finer.hold);
+      }
+    }
+  }
+
+  void makeLevel(int l, Grid<float>& heights, Grid<HeightOrigin>& origins, SynthesizedTerrain& made,
+                 const Progress& progress) {
+    const HeightLevel& level = pyramid_[static_cast<std::size_t>(l)];
+    const LevelControl& control = controls_[static_cast<std::size_t>(l)];
+    const Pixel size = sizeAt(l);
+    const bool coarsest = l + 1 == levels_;
+    HeightField field(size.x, size.y,
+                      {.level = coarsest ? kCoarsestLevel : kFinerLevel,
+                       .evenness = options_.evenness,
+                       .turns = turns_,
+                       .wrapsX = options_.wrapsX,
+                       .wrapsY = options_.wrapsY});
+    if (coarsest) {
+      begin(field, level);
+      origins = field.origins(progress);
+      heights = copied(level, origins);
+    } else {
+      field.inherit(origins, level.sources);
+      heights = refined(heights, origins, level, size);
+    }
+    steer(l, heights);
+    const std::string stage =
+        "matching, resolution " + std::to_string(levels_ - l) + " of " + std::to_string(levels_);
+    const int rounds = coarsest ? std::max(kCoarsestRounds, options_.rounds) : options_.rounds;
+    for (int round = 0; round < rounds; ++round) {
+      progress.report(stage, 0.75 * round / rounds);
+      match(field, level, l, round, heights, progress);
+      if (round + 1 == rounds) break;
+      heights = field.vote(level.sources, heights, progress);
+      steer(l, heights);
+      // On the finest resolution, once at the end.
+      if (l > 0) cut(l, heights, kFillBefore, made, progress);
+    }
+    origins = field.origins(progress);
+    heights = field.vote(level.sources, heights, progress);
+    progress.report("joining pieces", 0.75);
+    followSteps(heights, stepsOf(level, control, origins), control.hold,
+                {.screen = 1 / (kStepReach * kStepReach),
+                 .wrapsX = options_.wrapsX,
+                 .wrapsY = options_.wrapsY},
+                progress.part(0.75, 0.9));
+    steer(l, heights);
+    progress.report("letting water run", 0.9);
+    cut(l, heights, l > 0 ? kFillBefore : kFillAtLast, made, progress);
+  }
+
+  void match(HeightField& field, const HeightLevel& level, int l, int round,
+             const Grid<float>& heights, const Progress& progress) const {
+    double places = 0;
+    for (const HeightSource& source : level.sources) places += static_cast<double>(source.places);
+    const double comparisons =
+        places * static_cast<double>(turns_.size() * field.matches().count());
+    const bool coarsest = l + 1 == levels_;
+    if (coarsest && comparisons <= kMostComparisons) {
+      field.searchAll(level.sources, heights, {}, progress);
+    } else {
+      field.search(level.sources, heights, {}, options_.seed,
+                   static_cast<std::uint64_t>(100 * l + round), coarsest ? 24 : 4, progress);
+    }
+  }
+
+  /// Large regions of the examples, from places at random.
+  void begin(HeightField& field, const HeightLevel& level) const {
+    const Random random(options_.seed, stream::kTerrainStart);
+    const Grid<float>& first = level.sources.front().heights;
+    const int cell = std::max(kHeightPatch, std::min(first.width(), first.height()) / 2);
+    const int across = sizeAt(levels_ - 1).x / cell + 4;
+    for (int row = 0; row < field.rows(); ++row) {
+      for (int column = 0; column < field.columns(); ++column) {
+        const Pixel at = field.place(column, row);
+        // The nearest of the cells' middles, one at random in each.
+        double nearest = std::numeric_limits<double>::infinity();
+        std::uint64_t chosen = 0;
+        Pixel middle;
+        for (int cy = at.y / cell - 1; cy <= at.y / cell + 1; ++cy) {
+          for (int cx = at.x / cell - 1; cx <= at.x / cell + 1; ++cx) {
+            const auto key = static_cast<std::uint64_t>((cy + 1) * across + cx + 1);
+            const double mx = (cx + random.uniform(key, 0)) * cell;
+            const double my = (cy + random.uniform(key, 1)) * cell;
+            const double distance = std::hypot(at.x - mx, at.y - my);
+            if (distance >= nearest) continue;
+            nearest = distance;
+            chosen = key;
+            middle = {static_cast<int>(mx), static_cast<int>(my)};
+          }
+        }
+        HeightMatch match;
+        match.example = static_cast<std::uint8_t>(
+            random.below(static_cast<std::uint32_t>(level.sources.size()), chosen, 2));
+        match.turn = static_cast<std::uint8_t>(
+            turns_[random.below(static_cast<std::uint32_t>(turns_.size()), chosen, 3)]);
+        const Grid<float>& from = level.sources[match.example].heights;
+        const int mostX = from.width() - kHeightPatch, mostY = from.height() - kHeightPatch;
+        const Pixel back = turnedStep({at.x - middle.x, at.y - middle.y}, turnedBackBy(match.turn));
+        const int x = static_cast<int>(mostX * random.uniform(0.25, 0.75, chosen, 4)) + back.x;
+        const int y = static_cast<int>(mostY * random.uniform(0.25, 0.75, chosen, 5)) + back.y;
+        match.x = static_cast<std::int16_t>(std::clamp(x, 0, mostX));
+        match.y = static_cast<std::int16_t>(std::clamp(y, 0, mostY));
+        field.matches()(column, row) = match;
+      }
+    }
+    field.leaveHoles(level.sources);
+  }
+
+  static Grid<float> copied(const HeightLevel& level, const Grid<HeightOrigin>& origins) {
+    Grid<float> heights(origins.width(), origins.height());
+    for (std::size_t s = 0; s < heights.count(); ++s)
+      heights[s] = level.sources[origins[s].example].heights(origins[s].x, origins[s].y);
+    return heights;
+  }
+
+  /// At twice the resolution: the heights between the coarse ones, with the detail that the
+  /// examples have where they came from.
+  Grid<float> refined(const Grid<float>& half, const Grid<HeightOrigin>& origins,
+                      const HeightLevel& level, Pixel size) const {
+    Grid<float> fine(size.x, size.y);
+    forRows(size.y, [&](int y) {
+      for (int x = 0; x < size.x; ++x) {
+        const HeightOrigin& origin = origins(x / 2, y / 2);
+        const Pixel sub = turnedStep({2 * (x & 1) - 1, 2 * (y & 1) - 1}, turnedBackBy(origin.turn));
+        fine(x, y) = between(half, x, y, options_.wrapsX, options_.wrapsY) +
+                     level.details[origin.example](2 * origin.x + (sub.x + 1) / 2,
+                                                   2 * origin.y + (sub.y + 1) / 2);
+      }
+    });
+    return fine;
+  }
+
+  /// Toward the guide, and to what is given.
+  void steer(int l, Grid<float>& heights) const {
+    const auto follow = static_cast<float>(options_.control.follow);
+    if (!options_.control.guide.empty()) {
+      // The difference on the guide's resolution, brought back.
+      std::vector<Grid<float>> means;
+      for (int n = l; n < guideLevel_; ++n)
+        means.push_back(coarser(n == l ? heights : means.back()));
+      const Grid<float>& at = means.empty() ? heights : means.back();
+      const Grid<float>& guide =
+          controls_[static_cast<std::size_t>(std::max(l, guideLevel_))].guide;
+      Grid<float> change(at.width(), at.height());
+      for (std::size_t s = 0; s < change.count(); ++s) change[s] = follow * (guide[s] - at[s]);
+      for (int n = guideLevel_ - 1; n >= l; --n) {
+        const Pixel size = sizeAt(n);
+        Grid<float> finer(size.x, size.y);
+        forRows(size.y, [&](int y) {
+          for (int x = 0; x < size.x; ++x)
+            finer(x, y) = between(change, x, y, options_.wrapsX, options_.wrapsY);
+        });
+        change = std::move(finer);
+      }
+      for (std::size_t s = 0; s < heights.count(); ++s) heights[s] += change[s];
+    }
+    const LevelControl& control = controls_[static_cast<std::size_t>(l)];
+    for (std::size_t s = 0; s < control.hold.count(); ++s) {
+      if (control.hold[s] >= 1) {
+        heights[s] = control.given[s];
+      } else if (control.hold[s] > 0) {
+        heights[s] += control.hold[s] * (control.given[s] - heights[s]);
+      }
+    }
+  }
+
+  /// The steps that the examples take where samples came from; between pieces the mean of both
+  /// sides' steps; where heights are held, theirs.
+  HeightSteps2D stepsOf(const HeightLevel& level, const LevelControl& control,
+                        const Grid<HeightOrigin>& origins) const {
+    const int width = origins.width(), height = origins.height();
+    HeightSteps2D steps{Grid<float>(width, height), Grid<float>(width, height)};
+    const auto step = [&](std::size_t from, std::size_t to, Pixel by) {
+      const HeightOrigin &a = origins[from], &b = origins[to];
+      const Grid<float>& ofA = level.sources[a.example].heights;
+      const Grid<float>& ofB = level.sources[b.example].heights;
+      const HeightOrigin on = stepped(a, by);
+      const float here = ofA(a.x, a.y), there = ofB(b.x, b.y);
+      float taken = there - here;
+      if (!(on == b)) {
+        const HeightOrigin before = stepped(b, {-by.x, -by.y});
+        float sum = 0, count = 0;
+        if (ofA.contains(on.x, on.y) && !std::isnan(ofA(on.x, on.y)))
+          sum += ofA(on.x, on.y) - here, count += 1;
+        if (ofB.contains(before.x, before.y) && !std::isnan(ofB(before.x, before.y)))
+          sum += there - ofB(before.x, before.y), count += 1;
+        taken = count > 0 ? sum / count : 0.0f;
+      }
+      if (!control.hold.empty()) {
+        const float hold = std::min(control.hold[from], control.hold[to]);
+        if (hold > 0) taken += hold * (control.given[to] - control.given[from] - taken);
+      }
+      return taken;
+    };
+    forRows(height, [&](int y) {
+      for (int x = 0; x < width; ++x) {
+        const std::size_t here = origins.index(x, y);
+        steps.right(x, y) = step(here, origins.index((x + 1) % width, y), {1, 0});
+        steps.down(x, y) = step(here, origins.index(x, (y + 1) % height), {0, 1});
+      }
+    });
+    return steps;
+  }
+
+  void cut(int l, Grid<float>& heights, double fill, SynthesizedTerrain& made,
+           const Progress& progress) const {
+    if (options_.keepsHollows) return;
+    const OutletsCut cut = cutOutlets(heights, controls_[static_cast<std::size_t>(l)].held,
+                                      {.fill = fill,
+                                       .fall = std::ldexp(fall_, l) * l / std::max(1, levels_ - 1),
+                                       .bank = pyramid_[static_cast<std::size_t>(l)].bank,
+                                       .wrapsX = options_.wrapsX,
+                                       .wrapsY = options_.wrapsY},
+                                      progress);
+    made.outlets = cut.outlets;
+    made.meanCut = cut.mean;
+    made.deepestCut = cut.deepest;
+  }
+
+  const TerrainSynthesisOptions& options_;
+  int levels_;
+  int guideLevel_ = 0;
+  double fall_ = 0;
+  std::vector<int> turns_;
+  std::vector<HeightLevel> pyramid_;    // finest first
+  std::vector<LevelControl> controls_;  // the same
+};
+
+}  // namespace
+
+std::vector<int> turnsOf(std::span<const Grid<float>> examples) {
+  double xx = 0, xy = 0, yy = 0;
+  for (const Grid<float>& h : examples) {
+    for (int y = 0; y + 1 < h.height(); ++y) {
+      for (int x = 0; x + 1 < h.width(); ++x) {
+        const double dx = h(x + 1, y) - h(x, y), dy = h(x, y + 1) - h(x, y);
+        if (std::isnan(dx) || std::isnan(dy)) continue;
+        xx += dx * dx;
+        xy += dx * dy;
+        yy += dy * dy;
+      }
+    }
+  }
+  std::vector<int> turns;
+  for (int turn = 0; turn < 8; ++turn) {
+    // What the products become where gradients turn along.
+    const Pixel ex = turnedStep({1, 0}, turn), ey = turnedStep({0, 1}, turn);
+    const double tx = ex.x * ex.x * xx + 2 * ex.x * ey.x * xy + ey.x * ey.x * yy;
+    const double txy = ex.x * ex.y * xx + (ex.x * ey.y + ey.x * ex.y) * xy + ey.x * ey.y * yy;
+    const double ty = ex.y * ex.y * xx + 2 * ex.y * ey.y * xy + ey.y * ey.y * yy;
+    const double change =
+        std::sqrt((tx - xx) * (tx - xx) + 2 * (txy - xy) * (txy - xy) + (ty - yy) * (ty - yy));
+    if (change <= kTurnTolerance * (xx + yy)) turns.push_back(turn);
+  }
+  return turns;
+}
+
+SynthesizedTerrain synthesizeTerrain(std::span<const Grid<float>> examples,
+                                     const TerrainSynthesisOptions& options,
+                                     const Progress& progress) {
+  progress.report("reading the terrain", 0);
+  return Synthesis(examples, options, progress.part(0, 0.02)).run(progress.part(0.02, 1));
+}
+
+}  // namespace exemplar

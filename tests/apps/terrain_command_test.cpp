@@ -1,0 +1,152 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+// Terrain as a user asks for it: what stays, what guides, what gets detail.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/file.h"
+#include "maps/height_map_file.h"
+#include "mesh/image.h"
+#include "tests/apps/run_command.h"
+
+namespace exemplar {
+namespace {
+
+using testing::HasSubstr;
+
+class TerrainCommand : public testing::Test {
+ protected:
+  TerrainCommand() { writeHeightMap(folder_ / "e.asc", hills(64, 64, 10)); }
+
+  static HeightMap hills(int width, int height, double cell, double phase = 0) {
+    HeightMap map{Grid<float>(width, height), cell, true};
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        map.heights(x, y) = static_cast<float>(
+            200 + 60 * std::sin(0.11 * x + phase) * std::cos(0.09 * y) +
+            20 * std::sin(0.31 * x + 0.27 * y) + 6 * std::cos(0.7 * x - 0.5 * y + phase));
+      }
+    }
+    return map;
+  }
+  void paint(const char* name, int side, const std::function<bool(int, int)>& white) const {
+    Image8 picture{side, side, 1, {}};
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        picture.pixels.push_back(white(x, y) ? std::uint8_t{255} : std::uint8_t{0});
+    writePng(folder_ / name, picture);
+  }
+  HeightMap synth(const std::string& arguments) const {
+    const auto run = runExemplar("synth e.asc " + arguments + " -o o.asc", folder_.path());
+    EXPECT_EQ(run.status, 0) << run.err;
+    return readHeightMap(folder_ / "o.asc");
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(TerrainCommand, KeepsWhatIsWhiteToTheBit) {
+  paint("keep.png", 64, [](int x, int y) { return x >= 20 && x < 44 && y >= 24 && y < 40; });
+  const HeightMap example = hills(64, 64, 10), middle = synth("--keep keep.png --blend 8"),
+                  corner = synth("--keep keep.png --keep-at 0,64");
+  int different = 0;
+  for (int y = 24; y < 40; ++y) {
+    for (int x = 20; x < 44; ++x) {
+      ASSERT_EQ(middle.at(x + 32, y + 32), example.at(x, y));
+      ASSERT_EQ(corner.at(x, y + 64), example.at(x, y));
+      different += corner.at(x + 32, y + 32) != example.at(x, y);
+    }
+  }
+  EXPECT_GT(different, 300);
+}
+
+TEST_F(TerrainCommand, AMaskLeavesTheBaseWhereItIsBlack) {
+  const HeightMap base = hills(96, 96, 10, 2);
+  writeHeightMap(folder_ / "b.asc", base);
+  paint("mask.png", 96, [](int x, int) { return x >= 60; });
+  const HeightMap result = synth("--base b.asc --mask mask.png --size 96,96,1 --seed 3");
+  int different = 0;
+  for (int y = 0; y < 96; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      if (x < 60) {
+        ASSERT_EQ(result.at(x, y), base.at(x, y));
+      } else {
+        different += result.at(x, y) != base.at(x, y);
+      }
+    }
+  }
+  EXPECT_GT(different, 96 * 30);
+}
+
+TEST_F(TerrainCommand, GivesACoarseTerrainTheExamplesDetail) {
+  HeightMap coarse = hills(30, 24, 40);
+  coarse.corner = MapCorner{500, 700};
+  writeHeightMap(folder_ / "c.asc", coarse);
+  const HeightMap result = synth("--detail-of c.asc --keep-hollows");
+  ASSERT_EQ(result.width(), 120);
+  ASSERT_EQ(result.height(), 96);
+  EXPECT_EQ(result.cellSize, 10);
+  EXPECT_EQ(result.corner, coarse.corner);
+  double error = 0;
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 30; ++x) {
+      double mean = 0;
+      for (int v = 0; v < 4; ++v)
+        for (int u = 0; u < 4; ++u) mean += result.at(4 * x + u, 4 * y + v) / 16;
+      error += std::abs(mean - coarse.at(x, y)) / (24 * 30);
+    }
+  }
+  // Of a relief of about 170.
+  EXPECT_LT(error, 12);
+}
+
+TEST_F(TerrainCommand, FollowsPaintedHeightsAndLines) {
+  paint("guide.png", 32, [](int x, int) { return x >= 16; });
+  const HeightMap painted = synth("--guide guide.png --follow 1");
+  // x from the west, y from the south: cells of 10, 128 x 128 points.
+  writeFile(folder_ / "lines.csv",
+            "# one of each\nridge 320,60 320,1200\nvalley 960,1200 960,60,120\n");
+  const HeightMap lines = synth("--guide lines.csv --follow 1");
+  double west = 0, east = 0, ridge = 0, valley = 0;
+  for (int y = 10; y < 118; ++y) {
+    for (int x = 20; x < 44; ++x) west += painted.at(x, y), ridge += lines.at(x, y);
+    for (int x = 84; x < 108; ++x) east += painted.at(x, y), valley += lines.at(x, y);
+  }
+  constexpr int kCount = 108 * 24;
+  EXPECT_GT((east - west) / kCount, 60);
+  EXPECT_GT((ridge - valley) / kCount, 30);
+}
+
+TEST_F(TerrainCommand, RefusesWhatCannotBeInOneLine) {
+  writeFile(folder_ / "bad.csv", "ridge 1,2 3,4\nriver 1,2\n");
+  writeFile(folder_ / "odd.csv", "ridge 1,2,3,4\n");
+  writeFile(folder_ / "none.csv", "# nothing\n");
+  writeHeightMap(folder_ / "fine.asc", hills(40, 40, 5));
+  paint("black.png", 16, [](int, int) { return false; });
+  for (const auto& [arguments, says] : std::vector<std::pair<std::string, std::string>>{
+           {"--base e.asc", "--base: say with --mask"},
+           {"--keep-at 3,4", "--keep-at: say with --keep"},
+           {"--detail-of e.asc --scale 2,2,1", "says the size already"},
+           {"--detail-of fine.asc", "with cells 1.2 to 64 times as large"},
+           {"--guide bad.csv", "bad.csv:2: 'river'; expected ridge or valley"},
+           {"--guide odd.csv", "odd.csv:1: '1,2,3,4'; expected a point"},
+           {"--guide none.csv", "no ridge and no valley"},
+           {"--guide shape.obj", "is a height map"},
+           {"--keep black.png", "nothing of it is white"},
+           {"--mask black.png --size 70,70,1", "has the size of the result, 70 x 70"},
+           {"--orientations 3", "--orientations 3: expected 1, 2, 4 or 8"},
+           {"--size 10,40,1", "the result would have 10"},
+           {"--periodic z", "height maps tile along x and y"}}) {
+    const auto run = runExemplar("synth e.asc " + arguments + " -o o.tif", folder_.path());
+    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_THAT(run.err, HasSubstr(says)) << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace exemplar

@@ -1,0 +1,133 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/terrain/outlets.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "maps/drainage.h"
+#include "tests/synth/terrain/height_samples.h"
+
+namespace exemplar {
+namespace {
+
+using testing::noise;
+using testing::ridges;
+
+std::size_t flooded(const Grid<float>& heights) {
+  const Drainage drainage = drain(heights);
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < heights.count(); ++s) count += drainage.levels[s] > heights[s];
+  return count;
+}
+
+TEST(CutOutlets, LetsWaterRunFromEverywhere) {
+  for (const double fill : {0.0, 0.5, 1.0}) {
+    for (const double fall : {0.0, 0.01}) {
+      for (const double bank : {0.3, std::numeric_limits<double>::infinity()}) {
+        Grid<float> heights = noise(70, 50, 1);
+        ASSERT_GT(flooded(heights), 100u);
+        const OutletsCut cut = cutOutlets(heights, {}, {.fill = fill, .fall = fall, .bank = bank});
+        EXPECT_EQ(flooded(heights), 0u) << fill << " " << fall << " " << bank;
+        EXPECT_TRUE(fill == 1 || cut.outlets > 0);
+        EXPECT_GE(cut.deepest, cut.mean);
+      }
+    }
+  }
+}
+
+TEST(CutOutlets, LeavesLandThatDrainsAsItIs) {
+  Grid<float> heights(40, 30);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x)
+      heights(x, y) = static_cast<float>(100 - std::hypot(x - 20, y - 15));
+  const Grid<float> before = heights;
+  EXPECT_EQ(cutOutlets(heights, {}).outlets, 0);
+  EXPECT_EQ(heights, before);
+}
+
+TEST(CutOutlets, CutsOverTheLowestSaddleAndNoDeeperThanThePit) {
+  // A bowl with a notch in its rim.
+  Grid<float> heights(41, 41);
+  for (int y = 0; y < 41; ++y) {
+    for (int x = 0; x < 41; ++x) {
+      const double r = std::hypot(x - 20, y - 20);
+      heights(x, y) = static_cast<float>(r < 15 ? r : 30 - r);
+      if (y == 20 && x > 20 && r >= 12 && r <= 17) heights(x, y) -= 3;
+    }
+  }
+  const Grid<float> before = heights;
+  const OutletsCut cut = cutOutlets(heights, {}, {.fill = 0, .bank = 100});
+  EXPECT_EQ(flooded(heights), 0u);
+  EXPECT_LT(cut.deepest, before(35, 20) - before(20, 20) + 0.1);
+  // All of the cut lies on the side of the notch, and nothing was raised.
+  for (int y = 0; y < 41; ++y) {
+    for (int x = 0; x < 41; ++x) {
+      EXPECT_LE(heights(x, y), before(x, y));
+      if (x < 19) {
+        EXPECT_EQ(heights(x, y), before(x, y)) << x << " " << y;
+      }
+    }
+  }
+  EXPECT_LT(heights(35, 20), before(35, 20) - 5);
+}
+
+TEST(CutOutlets, FillsAtMostUpToWhereItSpills) {
+  const Grid<float> before = noise(60, 60, 4);
+  const Drainage drainage = drain(before);
+  Grid<float> heights = before;
+  cutOutlets(heights, {}, {.fill = 1, .bank = 1e9});
+  for (std::size_t s = 0; s < heights.count(); ++s)
+    ASSERT_LE(heights[s], drainage.levels[s] + 1e-5f);
+}
+
+TEST(CutOutlets, LeavesHeldSamples) {
+  Grid<float> heights = noise(50, 50, 2);
+  const Grid<float> before = heights;
+  Grid<std::uint8_t> held(50, 50);
+  for (int y = 20; y < 40; ++y)
+    for (int x = 10; x < 30; ++x) held(x, y) = 1;
+  cutOutlets(heights, held, {.fill = 0.5, .fall = 0.01, .bank = 0.2});
+  EXPECT_NE(heights, before);
+  for (std::size_t s = 0; s < heights.count(); ++s) {
+    if (held[s]) {
+      ASSERT_EQ(heights[s], before[s]);
+    }
+  }
+}
+
+TEST(CutOutlets, ATorusDrainsToItsLowestSample) {
+  Grid<float> heights = ridges(64, 48, 9);
+  cutOutlets(heights, {}, {.bank = 20, .wrapsX = true, .wrapsY = true});
+  std::size_t lowest = 0;
+  for (std::size_t s = 0; s < heights.count(); ++s)
+    if (heights[s] < heights[lowest]) lowest = s;
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      if (heights.index(x, y) == lowest) continue;
+      bool falls = false;
+      for (const Pixel& step : kNeighbors)
+        falls = falls || heights[heights.wrapped(x + step.x, y + step.y)] < heights(x, y);
+      ASSERT_TRUE(falls) << x << " " << y;
+    }
+  }
+}
+
+TEST(CutOutlets, HolesAreOutletsAndStop) {
+  Grid<float> heights(30, 30);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 30; ++x) heights(x, y) = static_cast<float>(std::hypot(x - 15, y - 15));
+  heights(15, 15) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(cutOutlets(heights, {}).outlets, 0);
+  EXPECT_TRUE(std::isnan(heights(15, 15)));
+  std::atomic<bool> cancel = true;
+  Grid<float> large = noise(300, 300, 3);
+  EXPECT_THROW(cutOutlets(large, {}, {}, Progress({}, &cancel)), Cancelled);
+}
+
+}  // namespace
+}  // namespace exemplar
