@@ -100,7 +100,7 @@ Adjacency overlapAdjacency(const Array3D<float>& values, const FieldBlocks& bloc
         const auto to = std::ranges::upper_bound(byMean, high[l].mean + slack, {}, mean);
         for (auto b = from; b < to; ++b) {
           if (!agree(high[l], low[*b], tolerance)) continue;
-          const auto [first, last] = std::ranges::equal_range(shown, l * 65536 + *b);
+          const auto [first, last] = std::equal_range(shown.begin(), shown.end(), l * 65536 + *b);
           found[l].push_back({static_cast<Label>(l), static_cast<Label>(*b),
                               std::max<std::int64_t>(1, last - first)});
         }
