@@ -79,7 +79,7 @@ const SettingTable<TerrainSettings>& terrainSettings() {
        }},
       settingRow<O>(
           "keep-hollows", [](O& o) -> bool& { return o.synthesis.keepsHollows; },
-          "cut no outlets, so that water stands in hollows"),
+          "cut no outlets, so that hollows hold water"),
       settingRow<O>("follow", [](O& o) -> double& { return o.files.follow; },
                     "how strictly `guide` is followed", {0, 1}),
       fileRow("detail-of", &TerrainFiles::detailOf,
