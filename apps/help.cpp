@@ -100,9 +100,11 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
 }
 
 std::string HelpFormatter::make_subcommand(const CLI::App* sub) const {
-  std::string name = "  " + sub->get_name();
-  name.resize(std::max<std::size_t>(name.size() + 1, 12), ' ');
-  return name + sub->get_description() + "\n";
+  constexpr int kIndent = 12;
+  const std::string name = "  " + sub->get_name() + " ";
+  // Names are shorter than the margin, whose place they take.
+  return name + wrapped(sub->get_description(), kIndent)
+                    .substr(std::min<std::size_t>(name.size(), kIndent));
 }
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool isPositional) const {

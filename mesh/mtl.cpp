@@ -84,10 +84,9 @@ bool isMap(const std::string& key) {
 std::string plainLine(std::string_view key, std::string_view rest) {
   std::string line(key);
   line += ' ';
-  for (const char c : rest) {
-    const bool breaks = (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == kPicture;
-    line += breaks ? ' ' : c;
-  }
+  line += rest;
+  for (char& c : line)
+    if ((static_cast<unsigned char>(c) < ' ' && c != '\t') || c == kPicture) c = ' ';
   return line;
 }
 

@@ -17,7 +17,7 @@ TEST(NearestName, IsTheOneThatWasMeant) {
   EXPECT_EQ(nearestName("--scal", names), "--scale");   // left out
   EXPECT_EQ(nearestName("--sseed", names), "--seed");   // put in
   EXPECT_EQ(nearestName("--sire", names), "--size");    // replaced, the first of two
-  EXPECT_EQ(nearestName("--scene", names), "--seed");   // within a third
+  EXPECT_EQ(nearestName("--scnee", names), "--scale");  // within a third of the letters
   EXPECT_EQ(nearestName("--frobnicate", names), "");
   EXPECT_EQ(nearestName("", names), "");
   EXPECT_EQ(nearestName("x", std::vector<std::string>{"y"}), "y");

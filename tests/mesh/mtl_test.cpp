@@ -39,6 +39,20 @@ TEST(Mtl, SkipsTheOptionsOfMaps) {
   EXPECT_EQ(file("-s"), "");
 }
 
+// Where a picture goes is marked by a byte of its own, which a file may hold, too.
+TEST(Mtl, IsNotMisledByControlCharacters) {
+  for (const char* text : {"newmtl m\nab\x7f"
+                           "9 1\nKd 1 0 0\n",
+                           "newmtl m\nab 1 \x7f"
+                           "9\n",
+                           "newmtl m\nab\x01"
+                           "c\x7f\n"}) {
+    const auto materials = parseMtl(text, "f.mtl");
+    ASSERT_EQ(materials.size(), 1u);
+    EXPECT_EQ(withPictureNumbers(materials[0].lines, {}), materials[0].lines);
+  }
+}
+
 TEST(Mtl, ReadsOlderConventions) {
   const auto material = [](const std::string& lines) {
     return parseMtl("# made by hand\nKd 9 9 9\nnewmtl a\n" + lines, "f.mtl")[0].material;

@@ -81,8 +81,10 @@ class Objects {
     exchange(progress.part(kPathsDone / 4, kPathsDone / 2));
     layOut(progress.part(kPathsDone / 2, kPathsDone));
     Array3D<float> target = shown();
+    progress.check();
     cutJoints(level_, target, kJointReach, sources_, progress.part(kPathsDone, kCutDone), &fixed_);
     pinSources(level_, sources_);
+    progress.check();
     target = shown();
     const Array3D<std::uint8_t> fixed = withoutMargins(level_, fixed_);
     result_.made = assemble(parts_, level_, sources_, target, options_.size, &fixed,
@@ -189,7 +191,7 @@ class Objects {
   }
 
   /// Lays each copy out.
-  void lay() {
+  void lay(const Progress& progress) {
     sources_ = PyramidSources(level_.target.framed());
     fixed_ = Array3D<std::uint8_t>(sources_.size());
     const Vec3i before = level_.target.margin.before, first = level_.source.parts[0].begin;
@@ -197,6 +199,7 @@ class Objects {
     int copy = 0;
     misfit_ = 0;
     forEachCell(tiles, [&](const Vec3i& tile) {
+      progress.check();
       std::array<std::vector<int>, 3> paths;
       CellBox box;
       Vec3i shift;
@@ -280,7 +283,7 @@ class Objects {
   /// Parts are moved as little as it takes to be new, in the way that tears least.
   void layOut(const Progress& progress) {
     if (!same()) {
-      lay();
+      lay(progress);
       return;
     }
     PyramidSources best;
@@ -289,8 +292,7 @@ class Objects {
     bool found = false;
     for (int rise = 0; rise < kRises && !found; ++rise) {
       for (draw_ = 0; draw_ < kDraws; ++draw_) {
-        progress.check();
-        lay();
+        lay(progress);
         const Comparison comparison = compared();
         const double uneven = std::abs(comparison.solid - 1) / kSolid;
         const double old = std::max(0.0, 1 - comparison.distance / options_.novelty);

@@ -62,7 +62,7 @@ ModelOptions sized(const Vec3i& size) {
   return o;
 }
 
-/// Of the windows of 4 x 4 columns of a result that are not ground, the share that stands in the
+/// Of the windows of 4 x 4 columns of a result that are not ground, the share that is in the
 /// sample.
 double shown(const Quilted& q) {
   const auto window = [](const LabelGrid& g, int x, int y) {
