@@ -159,7 +159,10 @@ TEST(LabelsFromImage, TurnedGridsAreThoseOfTheTurnedPictures) {
       return drawn(labelsFromImage(picture, "f", {.piece = 2, .overlap = overlap}).grid).size();
     };
     Image8 turned = image;
-    std::set<std::vector<std::uint8_t>> all{drawn(labels.grid)};
+    const auto text = [](const std::vector<std::uint8_t>& bytes) {
+      return std::string(bytes.begin(), bytes.end());
+    };
+    std::set<std::string> all{text(drawn(labels.grid))};
     for (int v = 1; v < 8; ++v) {
       if (v % 2 == 0) turned = quarterTurned(turned);
       const Image8 wanted = v % 2 == 1 ? mirrored(turned) : turned;
@@ -170,9 +173,9 @@ TEST(LabelsFromImage, TurnedGridsAreThoseOfTheTurnedPictures) {
       for (int y = 0; y < wanted.height; ++y)
         for (int x = 0; x < wanted.width; ++x)
           for (int c = 0; c < 3; ++c) ASSERT_EQ(shown.at(x, y)[c], wanted.at(x, y)[c]);
-      all.insert(shown.pixels);
+      all.insert(text(shown.pixels));
       EXPECT_EQ(found.upright, v < 2);
-      // What stands at a cell comes from where it says.
+      // What is at a cell comes from where it says.
       forEachCell(found.grid.size(),
                   [&](const Vec3i& p) { EXPECT_TRUE(labels.grid.cells.contains(found.from[p])); });
     }
