@@ -89,6 +89,7 @@ void warnOfUnused(Example& example) {
   use("air", o.air.has_value(), labels && (mesh || scene));
   use("piece", o.image.piece != usual.image.piece, picture);
   use("overlap", o.image.overlap, picture);
+  use("symmetry", o.image.symmetry != usual.image.symmetry, picture);
   use("unit", o.unit.has_value(), polygons && kind == SourceKind::Mesh);
   use("snap", o.snap != usual.snap, polygons && kind == SourceKind::Mesh);
   use("ground", o.ground.has_value(), polygons && kind == SourceKind::Mesh);
@@ -188,6 +189,11 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
       settingRow<O>(
           "seen-only", [](O& o) -> bool& { return o.image.seen; },
           "pieces that overlap are neighbors only where the picture shows them so"),
+      settingRow<O>(
+          "symmetry", [](O& o) -> int& { return o.image.symmetry; },
+          "in how many ways a picture is an example, 1, 2, 4 or 8: as it is (1), mirrored left and "
+          "right, too (2), turned a quarter (4), in all ways (8)",
+          {1, 8}),
       settingRow<O>(
           "example-periodic", [](O& o) -> Axes& { return o.image.periodic; },
           "axes along which the example goes on from its end with its beginning"),

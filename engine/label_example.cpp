@@ -223,8 +223,16 @@ void numberAlike(std::vector<Example>& examples) {
       numbers.push_back(static_cast<Label>(same));
     }
     for (Label& label : other.cells.values()) label = numbers[label];
+    if (auto* image = std::get_if<ImageLabels>(&next.content)) {
+      for (ImageLabels::Turned& turned : image->turned)
+        for (Label& label : turned.grid.cells.values()) label = numbers[label];
+    }
   }
-  for (Example& example : examples) std::get<LabelGrid>(example.data).labels = grid.labels;
+  for (Example& example : examples) {
+    std::get<LabelGrid>(example.data).labels = grid.labels;
+    if (auto* image = std::get_if<ImageLabels>(&example.content))
+      for (ImageLabels::Turned& turned : image->turned) turned.grid.labels = grid.labels;
+  }
   if (examples.size() > 1) {
     first.description += ", " + withThousands(static_cast<long long>(examples.size())) + " files";
   }

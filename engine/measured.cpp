@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "engine/example_forms.h"
 #include "engine/heights.h"
+#include "engine/model_request.h"
 #include "engine/realize.h"
 #include "engine/request.h"
 #include "engine/words.h"
@@ -40,8 +41,9 @@ std::optional<Measures> measure(const Result& result, std::span<const Example> e
 std::optional<Content> measureContent(const Result& result, std::span<const Example> examples,
                                       const Progress& progress) {
   if (result.form() != Form::Labels) return std::nullopt;
+  const std::vector<LabelGrid> shown = modelGrids(examples);
   std::vector<const LabelGrid*> grids;
-  for (const Example& example : examples) grids.push_back(&example.labels());
+  for (const LabelGrid& grid : shown) grids.push_back(&grid);
   return measureContent(grids, result.labels(), progress);
 }
 

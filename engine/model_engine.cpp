@@ -167,9 +167,7 @@ class ModelEngine final : public Engine {
     modelSettings().apply(request.settings, settings);
     const ModelOptions options = modelOptions(request, settings, examples.front());
     const Adjacency adjacency = adjacencyOf(examples, adjacencyOptions(settings));
-    std::vector<LabelGrid> grids;
-    for (const Example& example : examples) grids.push_back(example.labels());
-
+    const std::vector<LabelGrid> grids = modelGrids(examples);
     ModelResult made = synthesizeModel(grids, adjacency, options, progress.part(0, 0.9));
     Result result;
     result.outcome = made.outcome;
@@ -196,6 +194,7 @@ class ModelEngine final : public Engine {
     result.laterFrames.assign(std::make_move_iterator(made.frames.begin() + 1),
                               std::make_move_iterator(made.frames.end()));
     result.origins = std::move(made.origins.front());
+    originsInExamples(examples, result.origins);
     const LabelGrid& first = result.labels();
     if (first.cells.count() <= kMostMeasured) {
       const Vec3i n = first.size(), example = grids.front().size();

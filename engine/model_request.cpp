@@ -469,6 +469,31 @@ AdjacencyOptions adjacencyOptions(const ModelSettings& settings) {
   return adjacency;
 }
 
+std::vector<LabelGrid> modelGrids(std::span<const Example> examples) {
+  std::vector<LabelGrid> grids;
+  for (const Example& example : examples) grids.push_back(example.labels());
+  for (const Example& example : examples) {
+    if (const auto* image = std::get_if<ImageLabels>(&example.content))
+      for (const ImageLabels::Turned& turned : image->turned) grids.push_back(turned.grid);
+  }
+  return grids;
+}
+
+void originsInExamples(std::span<const Example> examples, Origins& origins) {
+  std::vector<std::pair<std::uint16_t, const ImageLabels::Turned*>> turned;
+  for (std::size_t e = 0; e < examples.size(); ++e) {
+    if (const auto* image = std::get_if<ImageLabels>(&examples[e].content))
+      for (const ImageLabels::Turned& t : image->turned)
+        turned.emplace_back(static_cast<std::uint16_t>(e), &t);
+  }
+  if (turned.empty()) return;
+  for (Origin& origin : origins.values()) {
+    if (origin.example < examples.size()) continue;
+    const auto& [example, grid] = turned[origin.example - examples.size()];
+    origin = {grid->from[origin.cell()], example};
+  }
+}
+
 Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions& options) {
   const auto* labeled = std::get_if<LabeledField>(&examples.front().content);
   if (labeled && labeled->blocks.stride != labeled->blocks.block) {
@@ -479,13 +504,25 @@ Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions&
     }
     return labeled->blocks.adjacency;
   }
-  std::vector<LabelGrid> grids;
-  for (const Example& example : examples) grids.push_back(example.labels());
+  const std::vector<LabelGrid> grids = modelGrids(examples);
   AdjacencyOptions all = options;
   all.periodic = examples.front().reading.image.periodic;
-  if (const auto* image = std::get_if<ImageLabels>(&examples.front().content))
-    return imageAdjacency(grids, *image, all);
-  return findAdjacency(grids, all);
+  const auto* image = std::get_if<ImageLabels>(&examples.front().content);
+  if (!image) return findAdjacency(grids, all);
+  if (image->turned.empty()) return imageAdjacency(grids, *image, all);
+  if (options.frames)
+    throw InputError("`symmetry`: a picture that changes over time is not turned; leave it out");
+  Adjacency adjacency = imageAdjacency(grids, *image, all);
+  // What is turned does not stand on the ground.
+  std::vector<LabelGrid> upright;
+  for (const Example& example : examples) {
+    upright.push_back(example.labels());
+    if (const auto* other = std::get_if<ImageLabels>(&example.content))
+      for (const ImageLabels::Turned& t : other->turned)
+        if (t.upright) upright.push_back(t.grid);
+  }
+  adjacency.sides = findAdjacency(upright, all).sides;
+  return adjacency;
 }
 
 Axes cutAtSides(const Example& example) {

@@ -38,6 +38,11 @@ std::vector<Label> parseLabels(const std::string& text, const LabelGrid& grid,
 ModelOptions modelOptions(const Request& request, const ModelSettings& settings,
                           const Example& example);
 
+/// The examples' grids, and after them those of pictures that count mirrored or turned, too.
+std::vector<LabelGrid> modelGrids(std::span<const Example> examples);
+/// Origins in what `modelGrids` gives as origins in the examples.
+void originsInExamples(std::span<const Example> examples, Origins& origins);
+
 /// Which labels may be neighbors: as counted in the examples, or, where blocks of a field overlap,
 /// as they agree. Throws `InputError` for settings that do not go together with the latter.
 Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions& options = {});

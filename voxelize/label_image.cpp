@@ -4,10 +4,13 @@
 #include "voxelize/label_image.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "mesh/color.h"
@@ -55,6 +58,30 @@ std::array<float, 4> colorOf(const Image8& piece, bool lowerLeft) {
   return color;
 }
 
+/// Where variant `v` of a picture (mirrored if odd, after v / 2 quarter turns counterclockwise) has
+/// what is at `p` of a grid of size `n`, y upwards; `n` becomes the variant's size.
+Vec3i turnedCell(int v, Vec3i p, Vec3i& n) {
+  for (int turn = 0; turn < v / 2; ++turn) {
+    p = {n.y - 1 - p.y, p.x, p.z};
+    std::swap(n.x, n.y);
+  }
+  if (v % 2 == 1) p.x = n.x - 1 - p.x;
+  return p;
+}
+
+Image8 turnedPiece(int v, const Image8& piece) {
+  Image8 turned = piece;
+  const int side = piece.width;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      Vec3i n{side, side, 1};
+      const Vec3i q = turnedCell(v, {x, side - 1 - y, 0}, n);
+      std::copy_n(piece.at(x, y), 4, turned.at(q.x, side - 1 - q.y));
+    }
+  }
+  return turned;
+}
+
 void requireFlat(const LabelGrid& grid) {
   if (grid.size().z != 1) {
     throw InputError("the grid has " + std::to_string(grid.size().z) +
@@ -76,6 +103,14 @@ ImageLabels labelsFromImage(const Image8& image, const std::string& name,
                      " pixels is smaller than one piece; `piece` is " + std::to_string(side));
   }
   const int step = options.overlap ? 1 : side;
+  if (options.symmetry != 1 && options.symmetry != 2 && options.symmetry != 4 &&
+      options.symmetry != 8) {
+    throw InputError("`symmetry` " + std::to_string(options.symmetry) + ": must be 1, 2, 4 or 8");
+  }
+  if (options.symmetry > 2 && options.periodic.x != options.periodic.y) {
+    throw InputError(name + ": `symmetry` " + std::to_string(options.symmetry) +
+                     " turns the picture, so `example-periodic` must be xy or none");
+  }
   if (options.periodic.z)
     throw InputError(name + ": `example-periodic`: a picture has the axes x and y");
   const auto along = [&](int pixels, bool periodic) {
@@ -93,27 +128,47 @@ ImageLabels labelsFromImage(const Image8& image, const std::string& name,
   result.options = options;
   result.grid.cells = Array3D<Label>(size);
   std::unordered_map<std::string, Label> known;
+  const auto labelOf = [&](Image8 piece) {
+    auto [found, isNew] =
+        known.try_emplace(std::string(piece.pixels.begin(), piece.pixels.end()), Label{});
+    if (!isNew) return found->second;
+    if (result.pieces.size() == static_cast<std::size_t>(kMostLabels)) {
+      throw InputError(name + ": the picture has more than " + std::to_string(kMostLabels) +
+                       " different pieces; use fewer colors or a smaller `piece`");
+    }
+    found->second = static_cast<Label>(result.pieces.size());
+    result.grid.labels.emplace_back().color = colorOf(piece, options.overlap);
+    result.pieces.push_back(std::move(piece));
+    return found->second;
+  };
   for (int row = 0; row < size.y; ++row) {
     progress.report("cutting the picture into pieces", static_cast<double>(row) / size.y);
     for (int column = 0; column < size.x; ++column) {
       // The lowest row of cells is the picture's last; what is left over lies at its top.
       const int y = size.y - 1 - row;
-      Image8 piece = pieceAt(image, column * step, image.height - side - y * step, side);
-      auto [found, isNew] =
-          known.try_emplace(std::string(piece.pixels.begin(), piece.pixels.end()), Label{});
-      if (isNew) {
-        if (result.pieces.size() == static_cast<std::size_t>(kMostLabels)) {
-          throw InputError(name + ": the picture has more than " + std::to_string(kMostLabels) +
-                           " different pieces; use fewer colors or a smaller `piece`");
-        }
-        found->second = static_cast<Label>(result.pieces.size());
-        LabelLook& look = result.grid.labels.emplace_back();
-        look.color = colorOf(piece, options.overlap);
-        result.pieces.push_back(std::move(piece));
-      }
-      result.grid.cells(column, y, 0) = found->second;
+      result.grid.cells(column, y, 0) =
+          labelOf(pieceAt(image, column * step, image.height - side - y * step, side));
     }
   }
+  for (int v = 1; v < options.symmetry; ++v) {
+    progress.check();
+    ImageLabels::Turned& turned = result.turned.emplace_back();
+    turned.upright = v < 2;
+    Vec3i n = size;
+    turnedCell(v, {}, n);
+    turned.grid.cells = Array3D<Label>(n);
+    turned.from = Array3D<Vec3i>(n);
+    std::vector<std::optional<Label>> images(result.pieces.size());
+    forEachCell(size, [&](const Vec3i& p) {
+      Vec3i unused = size;
+      const Vec3i q = turnedCell(v, p, unused);
+      const Label label = result.grid.cells[p];
+      if (!images[label]) images[label] = labelOf(turnedPiece(v, result.pieces[label]));
+      turned.grid.cells[q] = *images[label];
+      turned.from[q] = p;
+    });
+  }
+  for (ImageLabels::Turned& turned : result.turned) turned.grid.labels = result.grid.labels;
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/array3d.h"
 #include "core/axes.h"
 #include "core/progress.h"
 #include "mesh/image.h"
@@ -26,6 +27,10 @@ struct ImageLabelsOptions {
   /// Pieces that overlap are neighbors only where the picture shows them so, not wherever they
   /// agree in what they share.
   bool seen = false;
+  /// In how many ways the picture counts as an example: 1 as it is; 2 mirrored left and right, too;
+  /// 4 also turned a quarter counterclockwise, and that mirrored; 8 in all ways. The order is that
+  /// of wave function collapse.
+  int symmetry = 1;
 };
 
 /// A picture as labels, and what each label looks like.
@@ -35,13 +40,21 @@ struct ImageLabels {
   /// where pieces overlap, else its average; a piece that is transparent throughout is empty.
   LabelGrid grid;
   ImageLabelsOptions options;
-  std::vector<Image8> pieces;  ///< RGBA, one for each label
+  std::vector<Image8> pieces;  ///< RGBA, one for each label, those of `turned` last
+  /// The picture mirrored and turned, as further grids of the same labels.
+  struct Turned {
+    LabelGrid grid;
+    Array3D<Vec3i> from;  ///< the cell of the picture's own grid that each cell shows
+    bool upright = true;  ///< whether what is up is up
+  };
+  std::vector<Turned> turned;
 };
 
 /// Cuts a picture into labels: equal pieces (all transparent pixels are equal) are one label. What
 /// is left at the right and top, less than a piece, is not taken. Throws `InputError` ("NAME: ...")
 /// where the picture is smaller than a piece, has more than 65,536 different ones, or is not whole
-/// pieces long along a periodic axis.
+/// pieces long along a periodic axis; where `symmetry` is not 1, 2, 4 or 8, or turns a picture that
+/// is periodic along one axis only.
 ImageLabels labelsFromImage(const Image8& image, const std::string& name,
                             const ImageLabelsOptions& options = {}, const Progress& progress = {});
 

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/cells.h"
 #include "core/error.h"
 #include "core/random.h"
@@ -128,6 +130,79 @@ TEST(ImageAdjacency, PiecesThatAgreeInWhatTheyShareAreNeighbors) {
     EXPECT_EQ(imageAdjacency({&labels.grid, 1}, labels).rules[0].pairs, seen.rules[0].pairs);
   }
   EXPECT_GT(more, 0) << "pictures do not show all that agree";
+}
+
+/// The picture mirrored left and right, or turned a quarter counterclockwise.
+Image8 mirrored(const Image8& image) {
+  Image8 other = image;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      std::copy_n(image.at(x, y), image.channels, other.at(image.width - 1 - x, y));
+  return other;
+}
+Image8 quarterTurned(const Image8& image) {
+  Image8 other{image.height, image.width, image.channels, image.pixels};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      std::copy_n(image.at(x, y), image.channels, other.at(y, image.width - 1 - x));
+  return other;
+}
+
+TEST(LabelsFromImage, TurnedGridsAreThoseOfTheTurnedPictures) {
+  for (const bool overlap : {true, false}) {
+    const Image8 image = randomImage(overlap ? 9 : 8, overlap ? 7 : 6, 3);
+    const ImageLabels labels =
+        labelsFromImage(image, "f", {.piece = 2, .overlap = overlap, .symmetry = 8});
+    ASSERT_EQ(labels.turned.size(), 7u);
+    const auto drawn = [&](const LabelGrid& grid) { return imageFromLabels(grid, labels).pixels; };
+    const auto pixels = [&](const Image8& picture) {
+      return drawn(labelsFromImage(picture, "f", {.piece = 2, .overlap = overlap}).grid).size();
+    };
+    Image8 turned = image;
+    const auto text = [](const std::vector<std::uint8_t>& bytes) {
+      return std::string(bytes.begin(), bytes.end());
+    };
+    std::set<std::string> all{text(drawn(labels.grid))};
+    for (int v = 1; v < 8; ++v) {
+      if (v % 2 == 0) turned = quarterTurned(turned);
+      const Image8 wanted = v % 2 == 1 ? mirrored(turned) : turned;
+      const ImageLabels::Turned& found = labels.turned[v - 1];
+      EXPECT_EQ(pixels(wanted), drawn(found.grid).size());
+      const Image8 shown = imageFromLabels(found.grid, labels);
+      ASSERT_EQ(shown.width, wanted.width);
+      for (int y = 0; y < wanted.height; ++y)
+        for (int x = 0; x < wanted.width; ++x)
+          for (int c = 0; c < 3; ++c) ASSERT_EQ(shown.at(x, y)[c], wanted.at(x, y)[c]);
+      all.insert(text(shown.pixels));
+      EXPECT_EQ(found.upright, v < 2);
+      // What is at a cell comes from where it says.
+      forEachCell(found.grid.size(),
+                  [&](const Vec3i& p) { EXPECT_TRUE(labels.grid.cells.contains(found.from[p])); });
+    }
+    EXPECT_EQ(all.size(), 8u);
+  }
+}
+
+TEST(LabelsFromImage, TurnedPiecesAreFurtherExamplesOfNeighbors) {
+  const ImageLabels labels =
+      labelsFromImage(randomImage(8, 8, 2), "f", {.piece = 2, .overlap = true, .symmetry = 8});
+  std::vector<LabelGrid> grids{labels.grid};
+  for (const ImageLabels::Turned& t : labels.turned) grids.push_back(t.grid);
+  const Adjacency alone = imageAdjacency({&grids[0], 1}, labels);
+  const Adjacency all = imageAdjacency(grids, labels);
+  double one = 0, eight = 0;
+  for (const double f : alone.frequency) one += f;
+  for (const double f : all.frequency) eight += f;
+  EXPECT_EQ(eight, 8 * one);
+}
+
+TEST(LabelsFromImage, RefusesOtherSymmetries) {
+  const Image8 image = randomImage(8, 8, 2);
+  for (const int symmetry : {0, 3, 5, 16})
+    EXPECT_THROW(labelsFromImage(image, "f", {.piece = 2, .symmetry = symmetry}), InputError);
+  EXPECT_THROW(
+      labelsFromImage(image, "f", {.piece = 2, .periodic = {true, false, false}, .symmetry = 4}),
+      InputError);
 }
 
 TEST(LabelsFromImage, LeftOverPixelsLieAtTheTopAndRight) {
