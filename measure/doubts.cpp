@@ -127,8 +127,8 @@ std::string doubtSentence(Doubt doubt, const DoubtSigns& s) {
       return "the result is " + percent(s.resultOccupancy) + " solid, the example " +
              percent(s.exampleOccupancy);
     case Doubt::Sliced:
-      return percent(w.flatShare) + " of the result's surface is flat and faces an axis, as if " +
-             "sliced; of the example's " + percent(w.exampleFlatShare);
+      return percent(w.slicedShare) + " of the result's surface is flat and faces a direction in " +
+             "which the example has less of it, as if sliced";
     case Doubt::Open:
       break;
   }
