@@ -14,13 +14,16 @@
 #include "maps/height_map_file.h"
 #include "mesh/mesh_health.h"
 #include "sdf/triangle_tree.h"
+#include "tests/maps/made_maps.h"
 #include "tests/sdf/cancellation.h"
 #include "tests/sdf/shapes.h"
 
 namespace exemplar {
 namespace {
 
+using test::hills;
 using test::inputError;
+using test::makeMap;
 using test::TemporaryFolder;
 using test::withThreads;
 using testing::AllOf;
@@ -30,21 +33,6 @@ using testing::IsEmpty;
 using testing::Not;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-HeightMap makeMap(int width, int height, double cellSize,
-                  const std::function<double(double, double)>& f) {
-  HeightMap map{Grid<float>(width, height), cellSize};
-  for (int row = 0; row < height; ++row)
-    for (int column = 0; column < width; ++column)
-      map.heights(column, row) =
-          static_cast<float>(f(column * cellSize, (height - 1 - row) * cellSize));
-  return map;
-}
-
-// Rolling hills, no steeper than 45 degrees.
-double hills(double x, double y) {
-  return 3 + 0.6 * std::sin(1.1 * x) + 0.5 * std::cos(0.9 * y + 0.4 * x);
-}
 
 // The distance to the surface, by brute force over its triangles far past the map's sides.
 double exactDistance(const HeightMap& map, const Vec3d& p) {

@@ -8,15 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <string>
 
-#include "core/error.h"
 #include "core/random.h"
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
+#include "tests/temporary_files.h"
 
 // Solids with a known signed distance, and what the tests of this room share.
 namespace exemplar::test {
@@ -68,37 +65,6 @@ template <class Work>
 auto withThreads(int threads, const Work& work) {
   tbb::task_arena arena(threads);
   return arena.execute(work);
-}
-
-/// A folder that is removed with everything in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "exemplar_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// A file with this content, without the care for crashes that the library takes (and pays for).
-inline void writeBytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
-/// The message of the InputError that `work` throws; empty where it throws none.
-template <class Work>
-std::string inputError(const Work& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace exemplar::test
