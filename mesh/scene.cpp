@@ -3,9 +3,6 @@
 
 #include "mesh/scene.h"
 
-#define TOML_EXCEPTIONS 1
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -20,6 +17,7 @@
 #include "mesh/mesh_formats.h"
 #include "mesh/procedural/piece_scenes.h"
 #include "mesh/procedural/processes.h"
+#include "mesh/toml_text.h"
 
 namespace exemplar {
 namespace {
@@ -29,14 +27,8 @@ namespace fs = std::filesystem;
 /// A scene file's table: gives values by name, checks their ranges, and knows which were asked for.
 class SceneFile {
  public:
-  SceneFile(std::string_view bytes, const std::string& name) : path_(name) {
-    try {
-      table_ = toml::parse(bytes, path_);
-    } catch (const toml::parse_error& e) {
-      throw InputError(path_ + ":" + std::to_string(e.source().begin.line) + ": " +
-                       std::string(e.description()));
-    }
-  }
+  SceneFile(std::string_view bytes, const std::string& name)
+      : path_(name), table_(parseToml(bytes, name)) {}
 
   double number(const std::string& key, double standard, double low, double high) {
     const toml::node* node = find(key);

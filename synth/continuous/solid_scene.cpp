@@ -3,32 +3,22 @@
 
 #include "synth/continuous/solid_scene.h"
 
-#define TOML_EXCEPTIONS 1
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <charconv>
 #include <set>
 
 #include "core/error.h"
 #include "mesh/color.h"
+#include "mesh/toml_text.h"
 
 namespace exemplar::continuous {
 namespace {
 
-toml::table parsed(std::string_view text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& e) {
-    throw InputError(name + ":" + std::to_string(e.source().begin.line) + ": " +
-                     std::string(e.description()));
-  }
-}
-
 /// Reads a scene's tables and says where something is wrong.
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& name) : name_(name), root_(parsed(text, name)) {}
+  Reader(std::string_view text, const std::string& name)
+      : name_(name), root_(parseToml(text, name)) {}
 
   SolidScene read() {
     requireKeys(root_, {"kind", "unit", "scale", "spacing", "ground", "substances", "part"});
@@ -269,8 +259,8 @@ std::vector<ExactPlane> hullOf(const std::vector<Vec3l>& points) {
 
 bool isSolidScene(std::string_view text) {
   try {
-    return toml::parse(text)["kind"].value<std::string>() == "solids";
-  } catch (const toml::parse_error&) {
+    return parseToml(text, {})["kind"].value<std::string>() == "solids";
+  } catch (const InputError&) {
     return false;
   }
 }
