@@ -27,6 +27,10 @@ std::string_view unquoted(std::string_view name);
 /// A number of things: "1 face", "3 faces".
 std::string counted(std::size_t count, std::string_view noun);
 
+/// The text with control characters (line ends, tabs, a terminal's escapes) made spaces, as
+/// messages quote names and values from files.
+std::string oneLine(std::string text);
+
 /// ASCII letters made lower-case; other bytes stay, whatever the locale.
 std::string lowerCase(std::string_view text);
 

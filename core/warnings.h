@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.h"
+
 namespace exemplar {
 
 /// What was left out or taken otherwise than a file says, and what the file's user should know: one
@@ -19,6 +21,7 @@ using Warnings = std::vector<std::string>;
 /// Adds a line to `warnings` unless it is null or has that line already.
 inline void warn(Warnings* warnings, std::string line) {
   if (!warnings) return;
+  line = oneLine(std::move(line));
   if (std::find(warnings->begin(), warnings->end(), line) == warnings->end())
     warnings->push_back(std::move(line));
 }

@@ -22,6 +22,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/text.h"
 #include "maps/height_formats.h"
 
 namespace exemplar {
@@ -85,10 +86,7 @@ toff_t sizeOf(thandle_t handle) { return static_cast<Memory*>(handle)->size(); }
 std::string line(const char* format, std::va_list values) {
   char text[256];
   std::vsnprintf(text, sizeof text, format, values);
-  std::string result = text;
-  std::ranges::replace_if(
-      result, [](unsigned char c) { return c < ' '; }, ' ');
-  return result;
+  return oneLine(text);
 }
 
 int takeError(TIFF*, void* user, const char*, const char* format, std::va_list values) {

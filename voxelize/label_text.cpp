@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "core/memory.h"
+#include "core/text.h"
 #include "core/text_scanner.h"
 #include "voxelize/label_file.h"
 
@@ -101,13 +102,6 @@ void readObjects(TextScanner& scan, LabelGrid& grid) {
 void appendInt(std::string& text, int value) {
   char digits[16];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
-/// A line's text: breaks would make two lines of it.
-std::string oneLine(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  std::replace(text.begin(), text.end(), '\r', ' ');
-  return text;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "core/cells.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/text.h"
 #include "core/text_scanner.h"
 #include "sdf/openvdb_ready.h"
 #include "sdf/vdb_grids.h"
@@ -32,11 +33,6 @@ constexpr const char* kScene = "exemplar_scene";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw InputError(path.string() + ": " + what);
-}
-
-std::string oneLine(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
 }
 
 std::string looksText(const LabelGrid& grid) {

@@ -8,8 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
+#include "core/warnings.h"
+
 namespace exemplar {
 namespace {
+
+TEST(OneLine, HasNoControlCharacterWhateverANameHolds) {
+  EXPECT_EQ(oneLine("a\nb\t\x1b[31mc\r\x7f"), "a b  [31mc  ");
+  EXPECT_EQ(oneLine("B\xC3\xA4lle"), "B\xC3\xA4lle");
+  EXPECT_STREQ(InputError("unknown kind 'a\nb'").what(), "unknown kind 'a b'");
+  Warnings warnings;
+  warn(&warnings, "texture 'a\nb' is left out");
+  warn(&warnings, "texture 'a\nb' is left out");
+  EXPECT_EQ(warnings, Warnings{"texture 'a b' is left out"});
+}
 
 TEST(NearestName, IsTheOneThatWasMeant) {
   const std::vector<std::string> names{"--scale", "--scene-seed", "--seed", "--size", "--sides"};
