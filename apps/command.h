@@ -50,6 +50,7 @@ Command addVoxelizeCommand(CLI::App& app);
 Command addInfoCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
 Command addEnginesCommand(CLI::App& app);
+Command addCompletionCommand(CLI::App& app);
 
 /// Synthesis that could not be completed: exit status 3.
 class Unfinished : public std::runtime_error {
