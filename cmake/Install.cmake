@@ -18,8 +18,9 @@ add_library(exemplar::exemplar ALIAS exemplar_all_rooms)
 set_target_properties(exemplar_all_rooms PROPERTIES EXPORT_NAME exemplar)
 target_link_libraries(exemplar_all_rooms INTERFACE ${exemplar_libraries})
 install(TARGETS exemplar_all_rooms ${exemplar_libraries} EXPORT exemplarTargets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT exemplarTargets NAMESPACE exemplar:: DESTINATION ${exemplar_package})
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(EXPORT exemplarTargets NAMESPACE exemplar:: DESTINATION ${exemplar_package}
+        COMPONENT development)
 
 # Headers keep their rooms: <exemplar/sdf/mesh_to_sdf.h>. In the repository they include each other
 # from its root; what is installed says <exemplar/...> there too, and needs nothing but include/.
@@ -29,10 +30,11 @@ foreach(room IN LISTS EXEMPLAR_ROOMS)
       COMMAND \"${CMAKE_COMMAND}\" -DSOURCE=${PROJECT_SOURCE_DIR} -DROOM=${room}
               \"-DROOMS=${EXEMPLAR_ROOMS}\" -DOUT=${PROJECT_BINARY_DIR}/installed_headers
               -P ${PROJECT_SOURCE_DIR}/cmake/RewriteIncludes.cmake
-      COMMAND_ERROR_IS_FATAL ANY)")
+      COMMAND_ERROR_IS_FATAL ANY)" COMPONENT development)
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/installed_headers/
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/exemplar FILES_MATCHING PATTERN "*.h")
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/exemplar COMPONENT development
+        FILES_MATCHING PATTERN "*.h")
 
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/exemplarConfig.cmake.in
@@ -43,9 +45,10 @@ install(FILES ${PROJECT_BINARY_DIR}/exemplarConfig.cmake
               ${PROJECT_BINARY_DIR}/exemplarConfigVersion.cmake
               ${PROJECT_SOURCE_DIR}/cmake/LinkedPackages.cmake
               ${PROJECT_SOURCE_DIR}/cmake/FindCaDiCaL.cmake
-        DESTINATION ${exemplar_package})
+        DESTINATION ${exemplar_package} COMPONENT development)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/exemplar/scenes FILES_MATCHING PATTERN "*.toml")
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/exemplar/scenes COMPONENT command
+        FILES_MATCHING PATTERN "*.toml")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/docs/measures.md
-        DESTINATION ${CMAKE_INSTALL_DOCDIR})
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)

@@ -218,7 +218,9 @@ std::vector<fs::path> sceneFolders() {
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
   if (!program.empty())
     folders.push_back(program.parent_path().parent_path() / "share/exemplar/scenes");
+#ifdef EXEMPLAR_SOURCE_SCENES
   folders.emplace_back(EXEMPLAR_SOURCE_SCENES);
+#endif
   folders.emplace_back(EXEMPLAR_INSTALLED_SCENES);
   return folders;
 }
