@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "sdf/openvdb_ready.h"
+#include "sdf/vdb_metadata.h"
 
 namespace exemplar {
 namespace {
@@ -113,6 +114,8 @@ void withVdbGrids(const fs::path& path,
                   const std::function<void(const openvdb::GridPtrVec&)>& use) {
   openvdbReady();
   std::string bytes = readFile(path);
+  if (!hasSoundMetadata(bytes))
+    fail(path, "not a whole OpenVDB file (its metadata goes beyond it)");
   try {
     BytesBuffer buffer(bytes);
     std::istream in(&buffer);
@@ -125,9 +128,7 @@ void withVdbGrids(const fs::path& path,
   } catch (const Cancelled&) {
     throw;
   } catch (const std::exception& error) {
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    fail(path, "not a whole OpenVDB file (" + what + ")");
+    fail(path, std::string("not a whole OpenVDB file (") + error.what() + ")");
   }
 }
 

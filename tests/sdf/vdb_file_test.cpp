@@ -329,6 +329,25 @@ TEST(VdbFile, DamagedBytesAreReadOrRefusedButNothingElse) {
   EXPECT_GT(refused, 10);
 }
 
+/// OpenVDB takes as much memory as a damaged size says before it reads.
+TEST(VdbFile, RefusesSizesOfMetadataBeyondTheFile) {
+  const TemporaryFolder folder;
+  writeVdb(folder / "whole.vdb", torusField(0.12, {14, 13, 12}));
+  const std::string whole = readFile(folder / "whole.vdb");
+  int tried = 0;
+  for (const std::string_view type : {"string", "int64", "vec3i"}) {
+    for (std::size_t at = whole.find(type); at != whole.npos; at = whole.find(type, at + 1)) {
+      std::string bytes = whole;
+      bytes.replace(at + type.size(), 4, "\xf0\xff\xff\xff");
+      test::writeBytes(folder / "damaged.vdb", bytes);
+      EXPECT_THAT(inputError([&] { readVdb(folder / "damaged.vdb"); }),
+                  HasSubstr("its metadata goes beyond it"));
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 4);
+}
+
 TEST(VdbFile, RefusesWhatIsNoVdbFile) {
   const TemporaryFolder folder;
   EXPECT_THAT(inputError([&] { readVdb(folder / "missing.vdb"); }), HasSubstr("no such file"));

@@ -1,0 +1,79 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "sdf/vdb_metadata.h"
+
+#include <cstdint>
+#include <cstring>
+
+namespace exemplar {
+namespace {
+
+// A .vdb file begins with 8 bytes of magic number, the file's version, the library's two, one byte
+// for "says where grids end" and an id.
+constexpr std::size_t kVersion = 8, kOffsets = 20, kMetadata = 57;
+// The versions that OpenVDB writes since 3.0; metadata is laid out alike in them.
+constexpr std::uint32_t kFirstVersion = 222, kLastVersion = 224;
+
+/// Goes through a file; every step says whether it stayed within.
+class Walk {
+ public:
+  explicit Walk(std::string_view bytes) : bytes_(bytes) {}
+
+  bool goTo(std::uint64_t position) {
+    at_ = position;
+    return at_ <= bytes_.size();
+  }
+  bool skip(std::uint64_t count) { return count <= bytes_.size() - at_ && goTo(at_ + count); }
+  template <class Number>
+  bool read(Number& number) {
+    const std::uint64_t from = at_;
+    if (!skip(sizeof number)) return false;
+    std::memcpy(&number, bytes_.data() + from, sizeof number);
+    return true;
+  }
+  /// A size and so many bytes.
+  bool skipSized() {
+    std::uint32_t size = 0;
+    return read(size) && skip(size);
+  }
+  /// A count, and so many names, each with its type and value.
+  bool skipMetadata() {
+    std::uint32_t count = 0;
+    if (!read(count)) return false;
+    for (; count > 0; --count) {
+      if (!skipSized() || !skipSized() || !skipSized()) return false;
+    }
+    return true;
+  }
+
+ private:
+  std::string_view bytes_;
+  std::uint64_t at_ = 0;
+};
+
+}  // namespace
+
+bool hasSoundMetadata(std::string_view bytes) {
+  Walk walk(bytes);
+  std::uint32_t version = 0, grids = 0;
+  if (!walk.goTo(kVersion) || !walk.read(version)) return false;
+  if (version < kFirstVersion || version > kLastVersion) return true;
+  if (!walk.goTo(kMetadata) || !walk.skipMetadata() || !walk.read(grids)) return false;
+  const bool saysEnds = bytes[kOffsets] != 0;
+  for (std::uint32_t grid = 0; grid < grids; ++grid) {
+    // Name, type, name of the grid whose values it shares; where it, its values and its end are.
+    std::uint64_t begin = 0, values = 0, end = 0;
+    for (int name = 0; name < 3; ++name) {
+      if (!walk.skipSized()) return false;
+    }
+    if (!walk.read(begin) || !walk.read(values) || !walk.read(end)) return false;
+    std::uint32_t compression = 0;
+    if (!walk.read(compression) || !walk.skipMetadata()) return false;
+    if (!saysEnds) return true;
+    if (!walk.goTo(end)) return false;
+  }
+  return true;
+}
+
+}  // namespace exemplar
