@@ -107,11 +107,25 @@ std::string HelpFormatter::make_subcommand(const CLI::App* sub) const {
                     .substr(std::min<std::size_t>(name.size(), kIndent));
 }
 
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+  const std::string& type = option->get_type_name();
+  const bool number =
+      option->get_option_text().empty() && option->get_type_size() != 0 &&
+      (type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT"));
+  if (!number) return CLI::Formatter::make_option_opts(option);
+  // The parser's own words ("INT:INT in [1 - 64]=8") are for programmers; a number out of range is
+  // refused with the range.
+  return option->get_expected_max() > 1 ? " N ..." : " N";
+}
+
 std::string HelpFormatter::make_option(const CLI::Option* option, bool isPositional) const {
   std::string name = make_option_name(option, isPositional);
   if (const std::size_t comma = name.find(','); comma != name.npos) name.insert(comma + 1, " ");
   if (!isPositional) name += make_option_opts(option);
-  const std::string meaning = make_option_desc(option);
+  std::string meaning = make_option_desc(option);
+  if (const std::string usual = option->get_default_str();
+      !usual.empty() && name.find('=' + usual) == name.npos && !meaning.ends_with(")"))
+    meaning += " (" + usual + ")";
   return wrapped(name, kNameIndent) + wrapped(meaning, kMeaningIndent);
 }
 

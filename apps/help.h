@@ -23,6 +23,7 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_usage(const CLI::App* app, std::string name) const override;
   std::string make_subcommand(const CLI::App* sub) const override;
   std::string make_option(const CLI::Option* option, bool isPositional) const override;
+  std::string make_option_opts(const CLI::Option* option) const override;
 };
 
 /// Text in lines of at most 80 columns, each after so many spaces. Words that are longer stay
