@@ -50,8 +50,9 @@ const SettingTable<TerrainSettings>& terrainSettings() {
       settingRow<O>("rounds", [](O& o) -> int& { return o.synthesis.rounds; },
                     "rounds of matching and voting on each", {1, 50}),
       settingRow<O>(
-          "evenness", [](O& o) -> double& { return o.synthesis.evenness; },
-          "how much it costs to use a part of the example more often than others", kFromZero),
+          "piece-size", [](O& o) -> int& { return o.synthesis.piece; },
+          "about how wide the pieces are that are taken from one place, on each resolution",
+          {8, 24}, "points"),
       {{.key = "orientations",
         .type = SettingType::Integer,
         .meaning = "in how many orientations the example is used: 1, 2 (turned by half), 4 (by "

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/simd.h"
+#include "synth/terrain/height_pieces.h"
 
 namespace exemplar {
 namespace {
@@ -19,6 +20,10 @@ namespace {
 constexpr int kSide = kHeightPatch, kSamples = kSide * kSide;
 /// Side of the blocks of an example whose uses are counted, samples.
 constexpr int kUseBlock = 4;
+/// What differences of steps count in a patch's own variation, as they usually do in costs.
+constexpr float kUsualSlopes = 4;
+/// Patches of less variation than this, of the mean, are flat ground.
+constexpr double kGentlest = 0.02;
 /// What a patch counts at each of its rows and columns.
 constexpr std::array<float, kSide> kKernel{1, 3, 5, 7, 7, 5, 3, 1};
 
@@ -92,20 +97,6 @@ void sumDifferences(const float* a, const float* b, std::ptrdiff_t stride, Sums&
   }
 }
 
-EXEMPLAR_MULTIVERSION
-float sumSquares(const float* a, const float* b, std::ptrdiff_t stride) {
-  float squares[kSide] = {};
-  for (int v = 0; v < kSide; ++v) {
-    for (int u = 0; u < kSide; ++u) {
-      const float d = a[v * kSide + u] - b[v * stride + u];
-      squares[u] += d * d;
-    }
-  }
-  float sum = 0;
-  for (const float s : squares) sum += s;
-  return sum;
-}
-
 float meanOf(const float* first, std::ptrdiff_t stride) {
   float sum = 0;
   for (int v = 0; v < kSide; ++v)
@@ -139,10 +130,67 @@ Over patchesOver(int at, int size, const std::vector<int>& places, bool wraps) {
   return {first, last - first + 1};
 }
 
+/// `HeightSource::weights`, relative to the mean patch.
+void weigh(HeightSource& source) {
+  source.weights = Grid<float>(source.whole.width(), source.whole.height());
+  constexpr float kFlat[kSamples] = {};
+  const int rows = std::max(0, source.whole.height() - kSide + 1);
+  parallelFor(0, static_cast<std::size_t>(rows), 16, [&](std::size_t y0, std::size_t y1) {
+    for (std::size_t r = y0; r < y1; ++r) {
+      const int y = static_cast<int>(r);
+      for (int x = 0; x + kSide <= source.whole.width(); ++x) {
+        if (!source.whole(x, y)) continue;
+        Sums sums;
+        sumDifferences(kFlat, &source.heights(x, y), source.heights.width(), sums);
+        const float ofMean = sums.difference * sums.difference / kSamples;
+        source.weights(x, y) = std::max(0.0f, sums.squares - ofMean) + kUsualSlopes * sums.steps;
+      }
+    }
+  });
+  double mean = 0;
+  for (const float variation : source.weights.values()) mean += variation;
+  mean /= static_cast<double>(std::max<std::size_t>(1, source.places));
+  for (float& w : source.weights.values())
+    w = mean > 0 ? static_cast<float>(1 / std::sqrt(w / mean + kGentlest)) : 1.0f;
+}
+
 }  // namespace
 
-HeightSource heightSource(Grid<float> heights, Grid<float> flow) {
-  HeightSource source{std::move(heights), std::move(flow), {}, 0};
+void takeQuery(const Grid<float>& heights, Pixel at, std::span<const int> turns,
+               HeightQuery& query) {
+  const bool inside =
+      at.x >= 0 && at.y >= 0 && at.x + kSide <= heights.width() && at.y + kSide <= heights.height();
+  float plain[kSamples];
+  for (int j = 0; j < kSide; ++j) {
+    for (int i = 0; i < kSide; ++i) {
+      plain[j * kSide + i] =
+          heights[inside ? heights.index(at.x + i, at.y + j) : heights.wrapped(at.x + i, at.y + j)];
+    }
+  }
+  for (const int turn : turns) {
+    const auto& order = tables().toResult[static_cast<std::size_t>(turn)];
+    for (std::size_t k = 0; k < kSamples; ++k) query.heights[turn][k] = plain[order[k]];
+  }
+}
+
+double shapeCost(const HeightSource& source, const HeightQuery& query, const HeightMatch& match,
+                 double level, double slopes) {
+  const std::size_t at = source.heights.index(match.x, match.y);
+  Sums sums;
+  sumDifferences(query.heights[match.turn], &source.heights[at], source.heights.width(), sums);
+  const double ofMean = static_cast<double>(sums.difference) * sums.difference / kSamples;
+  return (std::max(0.0, sums.squares - ofMean) + level * ofMean + slopes * sums.steps) *
+         source.weights[at];
+}
+
+HeightOrigin originOfFirst(const HeightMatch& match) {
+  const int k = tables().toExample[match.turn][0];
+  return {static_cast<std::int16_t>(match.x + k % kSide),
+          static_cast<std::int16_t>(match.y + k / kSide), match.example, match.turn};
+}
+
+HeightSource heightSource(Grid<float> heights) {
+  HeightSource source{std::move(heights), {}, {}, 0};
   const int width = source.heights.width(), height = source.heights.height();
   source.whole = Grid<std::uint8_t>(width, height);
   // The number of good samples to the left of and above each.
@@ -161,15 +209,9 @@ HeightSource heightSource(Grid<float> heights, Grid<float> flow) {
       source.places += source.whole(x, y);
     }
   }
+  weigh(source);
   return source;
 }
-
-/// A patch of the result as it is and in the examples' orientations.
-struct HeightField::Query {
-  alignas(32) float heights[8][kSamples];
-  alignas(32) float flow[8][kSamples];
-  float mean = 0;
-};
 
 HeightField::HeightField(int width, int height, const HeightMatching& matching)
     : width_(width),
@@ -181,49 +223,16 @@ HeightField::HeightField(int width, int height, const HeightMatching& matching)
   assert(width >= kSide && height >= kSide);
 }
 
-void HeightField::fetch(const Grid<float>& heights, const Grid<float>& flow, int column, int row,
-                        Query& query) const {
-  const Pixel at = place(column, row);
-  const bool inside = at.x + kSide <= width_ && at.y + kSide <= height_;
-  const auto take = [&](const Grid<float>& from, float(&to)[8][kSamples]) {
-    float plain[kSamples];
-    for (int j = 0; j < kSide; ++j) {
-      for (int i = 0; i < kSide; ++i) {
-        plain[j * kSide + i] =
-            inside ? from[from.index(at.x + i, at.y + j)] : from[from.wrapped(at.x + i, at.y + j)];
-      }
-    }
-    for (const int turn : matching_.turns) {
-      const auto& order = tables().toResult[static_cast<std::size_t>(turn)];
-      for (std::size_t k = 0; k < kSamples; ++k) to[turn][k] = plain[order[k]];
-    }
-  };
-  take(heights, query.heights);
-  if (matching_.flow > 0) take(flow, query.flow);
-  query.mean = meanOf(query.heights[matching_.turns.front()], kSide);
-}
-
-double HeightField::costOf(const HeightSource& source, const Query& query,
+double HeightField::costOf(const HeightSource& source, const HeightQuery& query,
                            const HeightMatch& match) const {
-  const std::size_t at = source.heights.index(match.x, match.y);
-  Sums sums;
-  sumDifferences(query.heights[match.turn], &source.heights[at], source.heights.width(), sums);
-  const double ofMean = static_cast<double>(sums.difference) * sums.difference / kSamples;
-  double cost = std::max(0.0, sums.squares - ofMean) + matching_.level * ofMean +
-                matching_.slopes * sums.steps;
-  if (matching_.flow > 0) {
-    cost += matching_.flow *
-            sumSquares(query.flow[match.turn], &source.flow[at], source.heights.width());
-  }
-  if (!uses_.empty()) {
-    const Grid<float>& uses = uses_[match.example];
-    const float use = uses((match.x + kSide / 2) / kUseBlock, (match.y + kSide / 2) / kUseBlock);
-    cost *= 1 + matching_.evenness * std::max(0.0f, use - 1);
-  }
-  return cost;
+  const double cost = shapeCost(source, query, match, matching_.level, matching_.slopes);
+  if (uses_.empty()) return cost;
+  const Grid<float>& uses = uses_[match.example];
+  const float use = uses((match.x + kSide / 2) / kUseBlock, (match.y + kSide / 2) / kUseBlock);
+  return cost * (1 + matching_.evenness * std::max(0.0f, use - 1));
 }
 
-bool HeightField::consider(std::span<const HeightSource> sources, const Query& query,
+bool HeightField::consider(std::span<const HeightSource> sources, const HeightQuery& query,
                            const HeightMatch& candidate, HeightMatch& best) const {
   const HeightSource& source = sources[candidate.example];
   if (!source.whole.contains(candidate.x, candidate.y) || !source.whole(candidate.x, candidate.y))
@@ -250,19 +259,19 @@ void HeightField::countUses(std::span<const HeightSource> sources) {
 }
 
 void HeightField::search(std::span<const HeightSource> sources, const Grid<float>& heights,
-                         const Grid<float>& flow, std::uint64_t seed, std::uint64_t round,
-                         int tries, const Progress& progress) {
+                         std::uint64_t seed, std::uint64_t round, int tries,
+                         const Progress& progress) {
   countUses(sources);
   const Random random = Random(seed, stream::kTerrainPatches).fork(round);
   const Grid<HeightMatch> before = matches_;
   const int reach = round % 2 == 0 ? 1 : 3;
   parallelFor(0, static_cast<std::size_t>(rows()), 1, [&](std::size_t r0, std::size_t r1) {
-    Query query;
+    HeightQuery query;
     for (std::size_t r = r0; r < r1; ++r) {
       progress.check();
       const int row = static_cast<int>(r);
       for (int column = 0; column < columns(); ++column) {
-        fetch(heights, flow, column, row, query);
+        takeQuery(heights, place(column, row), matching_.turns, query);
         HeightMatch best = before(column, row);
         best.cost = std::numeric_limits<float>::infinity();
         consider(sources, query, before(column, row), best);
@@ -281,6 +290,7 @@ void HeightField::search(std::span<const HeightSource> sources, const Grid<float
           if (!matches_.contains(c, n)) continue;
           HeightMatch near = before(c, n);
           const Pixel there = place(c, n);
+          if (!reaches(near, best, here)) continue;
           const auto& back = tables().back[near.turn];
           const int dx = here.x - there.x - offset.x, dy = here.y - there.y - offset.y;
           near.x = static_cast<std::int16_t>(near.x + back[0].x * dx + back[1].x * dy);
@@ -337,7 +347,7 @@ void HeightField::addUse(const HeightMatch& match, float by) {
 }
 
 void HeightField::searchAll(std::span<const HeightSource> sources, const Grid<float>& heights,
-                            const Grid<float>& flow, const Progress& progress) {
+                            const Progress& progress) {
   countUses(sources);
   // One patch after another, in an order without direction, so that each sees what the others use;
   // its comparisons in parallel.
@@ -345,14 +355,14 @@ void HeightField::searchAll(std::span<const HeightSource> sources, const Grid<fl
   std::size_t stride =
       std::max<std::size_t>(1, static_cast<std::size_t>(0.618 * static_cast<double>(count)));
   while (std::gcd(stride, count) != 1) ++stride;
-  Query query;
+  HeightQuery query;
   std::vector<HeightMatch> rows;
   for (std::size_t n = 0, at = 0; n < count; ++n, at = (at + stride) % count) {
     if (n % 16 == 0) progress.check();
     const int column = static_cast<int>(at % static_cast<std::size_t>(columns()));
     const int row = static_cast<int>(at / static_cast<std::size_t>(columns()));
     addUse(matches_[at], -1);
-    fetch(heights, flow, column, row, query);
+    takeQuery(heights, place(column, row), matching_.turns, query);
     HeightMatch best;
     best.cost = std::numeric_limits<float>::infinity();
     for (std::size_t e = 0; e < sources.size(); ++e) {
@@ -495,26 +505,34 @@ void HeightField::leaveHoles(std::span<const HeightSource> sources) {
   }
 }
 
-void HeightField::inherit(const Grid<HeightOrigin>& coarse, std::span<const HeightSource> sources) {
+bool HeightField::reaches(const HeightMatch& from, const HeightMatch& own, Pixel at) const {
+  if (pieces_ == nullptr || from.piece == own.piece) return true;
+  const Pixel middle = pieces_->middles[from.piece];
+  const auto apart = [](int a, int b, int size, bool wraps) {
+    const int d = std::abs(a - b);
+    return wraps ? std::min(d, size - d) : d;
+  };
+  const int dx = apart(at.x + kSide / 2, middle.x, width_, matching_.wrapsX);
+  const int dy = apart(at.y + kSide / 2, middle.y, height_, matching_.wrapsY);
+  return dx * dx + dy * dy <= pieces_->reach * pieces_->reach;
+}
+
+void HeightField::begin(const HeightPieces& pieces, std::span<const HeightSource> sources) {
+  pieces_ = &pieces;
   for (int row = 0; row < rows(); ++row) {
     for (int column = 0; column < columns(); ++column) {
       const Pixel at = place(column, row);
-      const int x = (at.x + kSide / 2) % width_, y = (at.y + kSide / 2) % height_;
-      const HeightOrigin& origin =
-          coarse(std::min(x / 2, coarse.width() - 1), std::min(y / 2, coarse.height() - 1));
+      const HeightPieces::Share share = pieces.over({at.x + kSide / 2, at.y + kSide / 2});
+      const HeightOrigin origin = stepped(pieces.origins[share.piece],
+                                          {share.step.x - kSide / 2, share.step.y - kSide / 2});
       const Grid<float>& from = sources[origin.example].heights;
-      // The middle of a coarse sample is between four fine ones: steps in halves.
-      const int turn = turnedBackBy(origin.turn);
-      const Pixel fine = turnedStep({2 * (x & 1) - 1, 2 * (y & 1) - 1}, turn);
-      const Pixel middle = turnedStep({1, 1}, turn);
-      const int u = (middle.x + kSide - 1) / 2, v = (middle.y + kSide - 1) / 2;
+      const HeightOrigin first = originOfFirst({0, 0, origin.example, origin.turn});
       HeightMatch match;
       match.example = origin.example;
       match.turn = origin.turn;
-      match.x = static_cast<std::int16_t>(
-          std::clamp(2 * origin.x + (fine.x + 1) / 2 - u, 0, from.width() - kSide));
-      match.y = static_cast<std::int16_t>(
-          std::clamp(2 * origin.y + (fine.y + 1) / 2 - v, 0, from.height() - kSide));
+      match.piece = share.piece;
+      match.x = static_cast<std::int16_t>(std::clamp(origin.x - first.x, 0, from.width() - kSide));
+      match.y = static_cast<std::int16_t>(std::clamp(origin.y - first.y, 0, from.height() - kSide));
       matches_(column, row) = match;
     }
   }

@@ -24,28 +24,47 @@ inline constexpr int kHeightPatch = 8;
 /// One resolution of an example. Samples without data are NaN.
 struct HeightSource {
   Grid<float> heights;
-  /// How much water comes to a sample, on a scale of logarithms; of the size of `heights`, or
-  /// empty.
-  Grid<float> flow;
   /// 1 where the patch whose first sample this is lies inside and has no holes.
   Grid<std::uint8_t> whole;
+  /// What the costs of a patch are multiplied by: 1 / the root of its own variation. Sums of
+  /// squares alone prefer patches that are gentler than what they stand for, and from resolution to
+  /// resolution land would become flat.
+  Grid<float> weights;
   std::size_t places = 0;  ///< how many patches are whole
 };
 /// A resolution, with `whole` found.
-HeightSource heightSource(Grid<float> heights, Grid<float> flow = {});
+HeightSource heightSource(Grid<float> heights);
 
 /// Where a patch of the result comes from: the first (top left) sample of the example's patch.
 struct HeightMatch {
   std::int16_t x = 0, y = 0;
   std::uint8_t example = 0, turn = 0;
   float cost = 0;
+  std::uint32_t piece = 0;  ///< of `HeightPieces`: the one whose place it began with
 };
+/// What the result's first (top left) sample of the patch comes from.
+HeightOrigin originOfFirst(const HeightMatch& match);
+
+/// A patch of the result, in the examples' orientations.
+struct HeightQuery {
+  alignas(32) float heights[8][kHeightPatch * kHeightPatch];
+};
+/// Takes the patch whose first sample is `at`, for some orientations; past an end it goes on at the
+/// other.
+void takeQuery(const Grid<float>& heights, Pixel at, std::span<const int> turns,
+               HeightQuery& query);
+/// How little a patch of an example has the shape of one of the result: the sum of the squares of
+/// their differences without the mean difference, `level` times what that takes away, and `slopes`
+/// times the squares of the differences' steps; all times the patch's weight.
+double shapeCost(const HeightSource& source, const HeightQuery& query, const HeightMatch& match,
+                 double level, double slopes);
+
+struct HeightPieces;
 
 struct HeightMatching {
   double slopes = 4;      ///< what differences of steps count beside those of heights; >= 0
   double level = 0.05;    ///< what the difference of mean heights counts; 0: nothing, 1: heights as
                           ///< they are
-  double flow = 0;        ///< what differences of `flow` count; >= 0
   double evenness = 0.5;  ///< what it costs to use a place more often than others; >= 0
   int stride = 2;         ///< samples from patch to patch, 1..kHeightPatch
   std::vector<int> turns{0};  ///< of `turnedStep`: the orientations in which patches are used
@@ -68,13 +87,12 @@ class HeightField {
 
   /// Searches around what there is: each patch takes what its neighbors' places suggest and
   /// `tries` random places around its own where they are nearer; `round` numbers the draws.
-  void search(std::span<const HeightSource> sources, const Grid<float>& heights,
-              const Grid<float>& flow, std::uint64_t seed, std::uint64_t round, int tries,
-              const Progress& progress);
+  void search(std::span<const HeightSource> sources, const Grid<float>& heights, std::uint64_t seed,
+              std::uint64_t round, int tries, const Progress& progress);
   /// Looks at every place of the examples in every orientation. O(patches x places): for small
   /// maps.
   void searchAll(std::span<const HeightSource> sources, const Grid<float>& heights,
-                 const Grid<float>& flow, const Progress& progress);
+                 const Progress& progress);
 
   /// The heights that the patches give, each at the height where it fits: their mean at each
   /// sample, of which a patch counts most at its middle. `heights` are what the patches were fitted
@@ -85,18 +103,18 @@ class HeightField {
   Grid<HeightOrigin> origins(const Progress& progress) const;
   /// Moves what comes from places with holes to whole ones nearby.
   void leaveHoles(std::span<const HeightSource> sources);
-  /// Takes the origins of a result of half the resolution.
-  void inherit(const Grid<HeightOrigin>& coarse, std::span<const HeightSource> sources);
+  /// Begins with pieces, which must outlive the field: `search` spreads none of them beyond its
+  /// reach.
+  void begin(const HeightPieces& pieces, std::span<const HeightSource> sources);
 
  private:
-  struct Query;
   void countUses(std::span<const HeightSource> sources);
   void addUse(const HeightMatch& match, float by);
-  double costOf(const HeightSource& source, const Query& query, const HeightMatch& match) const;
-  void fetch(const Grid<float>& heights, const Grid<float>& flow, int column, int row,
-             Query& query) const;
-  bool consider(std::span<const HeightSource> sources, const Query& query,
+  double costOf(const HeightSource& source, const HeightQuery& query,
+                const HeightMatch& match) const;
+  bool consider(std::span<const HeightSource> sources, const HeightQuery& query,
                 const HeightMatch& candidate, HeightMatch& best) const;
+  bool reaches(const HeightMatch& from, const HeightMatch& own, Pixel at) const;
   template <class Body>
   void forPatchesOver(int x, int y, const Body& body) const;
 
@@ -104,6 +122,7 @@ class HeightField {
   HeightMatching matching_;
   std::vector<int> xs_, ys_;
   Grid<HeightMatch> matches_;
+  const HeightPieces* pieces_ = nullptr;
   std::vector<Grid<float>> uses_;  // of blocks of the examples, 1 on average
   float usesEach_ = 1;             // how many patches that is
 };

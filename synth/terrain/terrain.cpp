@@ -15,6 +15,7 @@
 #include "maps/drainage.h"
 #include "synth/terrain/gradient_domain.h"
 #include "synth/terrain/height_patches.h"
+#include "synth/terrain/height_pieces.h"
 #include "synth/terrain/height_pyramid.h"
 #include "synth/terrain/outlets.h"
 
@@ -31,6 +32,8 @@ constexpr double kCoarsestLevel = 0.3, kFinerLevel = 0.05;
 constexpr double kMostComparisons = 2.5e6;
 /// Over how many samples heights follow the steps of their pieces rather than the vote.
 constexpr double kStepReach = 16;
+/// By how much detail is strengthened at most.
+constexpr double kMostStrength = 1.5;
 /// How far hollows are filled before an outlet is cut: little while finer resolutions still give
 /// the cut its valley, by half at the end.
 constexpr double kFillBefore = 0.2, kFillAtLast = 0.5;
@@ -180,17 +183,28 @@ class Synthesis {
     const bool coarsest = l + 1 == levels_;
     HeightField field(size.x, size.y,
                       {.level = coarsest ? kCoarsestLevel : kFinerLevel,
-                       .evenness = options_.evenness,
                        .turns = turns_,
                        .wrapsX = options_.wrapsX,
                        .wrapsY = options_.wrapsY});
+    HeightPieces pieces;
     if (coarsest) {
       begin(field, level);
       origins = field.origins(progress);
       heights = copied(level, origins);
     } else {
-      field.inherit(origins, level.sources);
-      heights = refined(heights, origins, level, size);
+      pieces =
+          choosePieces(pyramid_[static_cast<std::size_t>(l + 1)].sources, heights, origins, size,
+                       {.size = options_.piece,
+                        .meanCost = kFinerLevel,
+                        .seed = options_.seed,
+                        .level = static_cast<std::uint64_t>(l),
+                        .turns = turns_,
+                        .wrapsX = options_.wrapsX,
+                        .wrapsY = options_.wrapsY},
+                       progress);
+      field.begin(pieces, level.sources);
+      origins = field.origins(progress);
+      heights = refined(heights, origins, level);
     }
     steer(l, heights);
     const std::string stage =
@@ -213,6 +227,7 @@ class Synthesis {
                  .wrapsX = options_.wrapsX,
                  .wrapsY = options_.wrapsY},
                 progress.part(0.75, 0.9));
+    if (!coarsest) strengthen(level, heights);
     steer(l, heights);
     progress.report("letting water run", 0.9);
     cut(l, heights, l > 0 ? kFillBefore : kFillAtLast, made, progress);
@@ -226,9 +241,9 @@ class Synthesis {
         places * static_cast<double>(turns_.size() * field.matches().count());
     const bool coarsest = l + 1 == levels_;
     if (coarsest && comparisons <= kMostComparisons) {
-      field.searchAll(level.sources, heights, {}, progress);
+      field.searchAll(level.sources, heights, progress);
     } else {
-      field.search(level.sources, heights, {}, options_.seed,
+      field.search(level.sources, heights, options_.seed,
                    static_cast<std::uint64_t>(100 * l + round), coarsest ? 24 : 4, progress);
     }
   }
@@ -284,20 +299,45 @@ class Synthesis {
   }
 
   /// At twice the resolution: the heights between the coarse ones, with the detail that the
-  /// examples have where they came from.
+  /// examples have at the origins.
   Grid<float> refined(const Grid<float>& half, const Grid<HeightOrigin>& origins,
-                      const HeightLevel& level, Pixel size) const {
-    Grid<float> fine(size.x, size.y);
-    forRows(size.y, [&](int y) {
-      for (int x = 0; x < size.x; ++x) {
-        const HeightOrigin& origin = origins(x / 2, y / 2);
-        const Pixel sub = turnedStep({2 * (x & 1) - 1, 2 * (y & 1) - 1}, turnedBackBy(origin.turn));
+                      const HeightLevel& level) const {
+    Grid<float> fine(origins.width(), origins.height());
+    forRows(fine.height(), [&](int y) {
+      for (int x = 0; x < fine.width(); ++x) {
+        const HeightOrigin& origin = origins(x, y);
         fine(x, y) = between(half, x, y, options_.wrapsX, options_.wrapsY) +
-                     level.details[origin.example](2 * origin.x + (sub.x + 1) / 2,
-                                                   2 * origin.y + (sub.y + 1) / 2);
+                     level.details[origin.example](origin.x, origin.y);
       }
     });
     return fine;
+  }
+
+  /// Votes and joins take some of the detail away: gives it the examples' strength.
+  void strengthen(const HeightLevel& level, Grid<float>& heights) const {
+    const Grid<float> half = coarser(heights);
+    Grid<float> detail(heights.width(), heights.height());
+    forRows(heights.height(), [&](int y) {
+      for (int x = 0; x < heights.width(); ++x)
+        detail(x, y) = heights(x, y) - between(half, x, y, options_.wrapsX, options_.wrapsY);
+    });
+    const double own = meanSquare({&detail, 1}), wanted = meanSquare(level.details);
+    if (!(own > 0)) return;
+    const auto more =
+        static_cast<float>(std::clamp(std::sqrt(wanted / own), 1.0, kMostStrength) - 1);
+    for (std::size_t s = 0; s < heights.count(); ++s) heights[s] += more * detail[s];
+  }
+
+  static double meanSquare(std::span<const Grid<float>> grids) {
+    double sum = 0, count = 0;
+    for (const Grid<float>& grid : grids) {
+      for (const float v : grid.values()) {
+        if (std::isnan(v)) continue;
+        sum += double{v} * v;
+        ++count;
+      }
+    }
+    return count > 0 ? sum / count : 0;
   }
 
   /// Toward the guide, and to what is given.

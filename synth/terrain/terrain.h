@@ -48,9 +48,11 @@ struct TerrainSynthesisOptions {
   /// Orientations in which the examples are used (`turnedStep`); empty: those that keep the
   /// direction of the terrain, all eight where it has none.
   std::vector<int> turns;
-  int levels = 0;             ///< resolutions, each half the one before; 0: found; 1..12
-  int rounds = 3;             ///< of matching and voting on each resolution, 1..50
-  double evenness = 0.5;      ///< what it costs to use a place more often than others; >= 0
+  int levels = 0;  ///< resolutions, each half the one before; 0: found; 1..12
+  int rounds = 3;  ///< of matching and voting on each resolution, 1..50
+  /// About the width of the pieces that are taken from one place, samples of each resolution:
+  /// larger ones are more like the examples, and recognized; 8..24.
+  int piece = 12;
   bool keepsHollows = false;  ///< cut no outlets
   TerrainControl control;
 };

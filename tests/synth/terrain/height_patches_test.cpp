@@ -49,7 +49,7 @@ TEST(HeightField, FindsWhatItWasCopiedFromInEveryOrientationAndHeight) {
     const HeightOrigin from{30, 25, 0, turn};
     const Grid<float> wanted = piece(example, 20, 18, from, 128.0f);
     HeightField field(20, 18, {.level = 0, .evenness = 0, .turns = {0, 1, 2, 3, 4, 5, 6, 7}});
-    field.searchAll(sources, wanted, {}, {});
+    field.searchAll(sources, wanted, {});
     const Grid<HeightOrigin> origins = field.origins({});
     for (int y = 0; y < 18; ++y)
       for (int x = 0; x < 20; ++x) ASSERT_EQ(origins(x, y), stepped(from, {x, y}));
@@ -65,9 +65,9 @@ TEST(HeightField, RandomSearchComesNearTheBest) {
   const Grid<float> wanted = ridges(48, 40, 77);
   const HeightMatching matching{.evenness = 0, .turns = {0, 1, 2, 3, 4, 5, 6, 7}};
   HeightField best(48, 40, matching), found(48, 40, matching);
-  best.searchAll(sources, wanted, {}, {});
+  best.searchAll(sources, wanted, {});
   for (std::uint64_t round = 0; round < 12; ++round)
-    found.search(sources, wanted, {}, 5, round, 12, {});
+    found.search(sources, wanted, 5, round, 12, {});
   double least = 0, cost = 0;
   for (std::size_t n = 0; n < best.matches().count(); ++n) {
     EXPECT_GE(found.matches()[n].cost, best.matches()[n].cost);
@@ -89,7 +89,7 @@ TEST(HeightField, TakesNothingFromHoles) {
   field.leaveHoles(sources);
   for (const HeightMatch& match : field.matches().values())
     ASSERT_TRUE(sources[0].whole(match.x, match.y));
-  field.search(sources, wanted, {}, 1, 0, 8, {});
+  field.search(sources, wanted, 1, 0, 8, {});
   const Grid<float> voted = field.vote(sources, wanted, {});
   for (const float h : voted.values()) ASSERT_FALSE(std::isnan(h));
 }
@@ -99,7 +99,7 @@ TEST(HeightField, ATorusIsCoveredEverywhere) {
   const HeightSource sources[] = {heightSource(example)};
   const Grid<float> wanted = ridges(33, 30, 9);
   HeightField field(33, 30, {.wrapsX = true, .wrapsY = true});
-  field.searchAll(sources, wanted, {}, {});
+  field.searchAll(sources, wanted, {});
   const Grid<float> voted = field.vote(sources, wanted, {});
   for (const float h : voted.values()) ASSERT_TRUE(std::isfinite(h));
 }
@@ -111,7 +111,7 @@ TEST(HeightField, GivesTheSameMatchesAtAnyNumberOfThreads) {
   testing::expectSameAtAnyThreads([&] {
     HeightField field(70, 64, {.turns = {0, 3, 5}});
     for (std::uint64_t round = 0; round < 3; ++round)
-      field.search(sources, wanted, {}, 3, round, 4, {});
+      field.search(sources, wanted, 3, round, 4, {});
     return field.vote(sources, wanted, {});
   });
 }
