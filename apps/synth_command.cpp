@@ -72,7 +72,7 @@ const Engine& engineOf(const Options& options, Settings& settings) {
   const bool named = options.engine != "auto" && !options.engine.empty();
   const Engine& engine = named             ? engineNamed(options.engine)
                          : !method.empty() ? engineNamed("geometry")
-                                           : engineFor(Source(options.examples.front()));
+                                           : engineFor(Source(options.examples.front()), settings);
   if (engine.name() != "geometry" || method.empty()) return engine;
   if (method != "optimize" && method != "blocks")
     throw InputError("`method` " + method + ": expected optimize or blocks");
@@ -97,7 +97,8 @@ void checkOutputs(const Options& options, Form form, int lods) {
   if (!options.layers.empty()) requireOutput(options.layers, ".png");
   Paths inputs(options.examples.begin(), options.examples.end());
   inputs.insert(inputs.end(), options.with.begin(), options.with.end());
-  for (const char* key : {"keep", "guide", "mask", "base", "detail-of", "layers-from", "paint"})
+  for (const char* key :
+       {"keep", "guide", "on", "mask", "base", "detail-of", "layers-from", "paint"})
     if (options.settings.has(key)) inputs.emplace_back(options.settings.text(key));
   std::vector<std::pair<std::string, std::string>> channels;
   if (form == Form::Map) channels = readingOf(options.settings, form).channels;
@@ -315,8 +316,9 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
     for (const Written& lod : writeLods(output, *surface, plan.output, part.part(0.8, 1))) say(lod);
   }
   if (!options.origins.empty()) {
-    writeOriginsVdb(options.origins, result.origins, result.field(),
-                    {.turn = examples.front().turn, .scale = scaleOf(plan, result, examples)});
+    writeOriginsVdb(
+        options.origins, result.origins, result.field(),
+        {.turn = turnOf(result, examples.front()), .scale = scaleOf(plan, result, examples)});
     terminal.wrote("origins", options.origins, options.origins);
   }
   if (!options.layers.empty()) {

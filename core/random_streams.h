@@ -23,6 +23,11 @@ enum Name : std::uint32_t {
   kSeamRepair = 0x0b74,    ///< PatchMatch where a seam shows
   kParts = 0x0b76,         ///< which parts of an object are exchanged
   kSlices = 0x0b75,        ///< which slices of an object are repeated or left out
+  // synth/surface
+  kSurfaceField = 0x73661,    ///< where the iteration for a direction field starts
+  kSurfaceStripes = 0x73662,  ///< where that for phases starts
+  kSurfacePlaces = 0x73664,   ///< where the first placement comes from
+  kSurfaceSeeds = 0x73663,    ///< the order in which nodes become the middle of a placement
   // synth/model
   kLabelChoice = 0x4C424C31,  ///< which label a cell takes
   kBlockAccept = 0x4C424C32,  ///< whether a modified block is kept

@@ -44,6 +44,7 @@ void checkRequest(const Engine& engine, const Request& request) {
   if (request.decided.keep && !honors(engine, "keep")) refuse(engine, "keep");
   if (!request.decided.pins.empty() && !honors(engine, "pin")) refuse(engine, "pin");
   if (request.guide && !honors(engine, "guide")) refuse(engine, "guide");
+  if (request.on && !honors(engine, "on")) refuse(engine, "on");
   for (const auto& [key, text] : request.settings.given()) {
     const auto found = std::ranges::find(engine.settings(), key, &Setting::key);
     if (found == engine.settings().end()) refuse(engine, key);
@@ -80,7 +81,7 @@ Result Engine::run(std::span<const Example> examples, const Request& request,
     result = synthesize(examples, request, progress.part(0, kUntilDoubts));
     // An engine that had another make the result leaves the doubts to that.
     if (result.form() == Form::Field && result.outcome == Outcome::Complete &&
-        result.engine.empty())
+        result.engine.empty() && !result.originMap)
       addDoubts(examples, request, result, progress.part(kUntilDoubts, 1));
   } catch (const Cancelled&) {
     result.outcome = Outcome::Cancelled;
@@ -95,7 +96,7 @@ Result Engine::run(std::span<const Example> examples, const Request& request,
 std::span<const Engine* const> engines() {
   static const Engine* const all[] = {&geometryEngine(), &quiltingEngine(), &votingEngine(),
                                       &blocksEngine(),   &modelEngine(),    &continuousEngine(),
-                                      &layeredEngine(),  &terrainEngine()};
+                                      &layeredEngine(),  &terrainEngine(),  &surfaceEngine()};
   return all;
 }
 
@@ -121,6 +122,10 @@ const Engine& engineFor(const Source& source) {
     default:
       return geometryEngine();
   }
+}
+
+const Engine& engineFor(const Source& source, const Settings& settings) {
+  return settings.has("on") ? surfaceEngine() : engineFor(source);
 }
 
 std::vector<Setting> settingsOf(const Engine& engine) {

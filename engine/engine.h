@@ -56,13 +56,15 @@ class Engine {
                             const Progress& progress) const = 0;
 };
 
-/// All engines: geometry, quilting, voting, blocks, model, continuous, layered, terrain.
+/// All engines: geometry, quilting, voting, blocks, model, continuous, layered, terrain, surface.
 std::span<const Engine* const> engines();
 /// The engine of a name. Throws `InputError` naming all.
 const Engine& engineNamed(std::string_view name);
 /// The engine that a source asks for: model where it holds labels, continuous where it holds solids
 /// between planes, terrain where it is a height map, else geometry.
 const Engine& engineFor(const Source& source);
+/// The same for a request's settings: surface where they name one that the example is laid `on`.
+const Engine& engineFor(const Source& source, const Settings& settings);
 
 /// Everything that can be set for an engine: of the request, of reading an example in its form, its
 /// own, and of a result's surface.

@@ -25,5 +25,7 @@ const Engine& continuousEngine();
 const Engine& layeredEngine();
 /// Terrain synthesis (`synth/terrain`).
 const Engine& terrainEngine();
+/// An example laid on a surface (`synth/surface`).
+const Engine& surfaceEngine();
 
 }  // namespace exemplar

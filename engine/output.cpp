@@ -103,7 +103,7 @@ Written writeField(const fs::path& path, const Result& result, const Example& ex
     written.label = "heights";
     HeightMap map = sdfToHeightMap(result.field(), progress.part(0, 0.5));
     map.steps = example.heightSteps;
-    if (!example.turn.none())
+    if (!turnOf(result, example).none())
       written.warnings.push_back(
           path.string() +
           ": heights lie along x and y; the result is not turned back as the example lies");
@@ -111,7 +111,7 @@ Written writeField(const fs::path& path, const Result& result, const Example& ex
                    {.heightScale = example.reading.heightScale, .warnings = &written.warnings},
                    progress.part(0.5, 1));
   } else {
-    writeVdb(path, result.field(), result.periodic, example.turn, progress);
+    writeVdb(path, result.field(), result.periodic, turnOf(result, example), progress);
   }
   return written;
 }

@@ -49,6 +49,7 @@ Surface contoured(const Result& result, std::span<const Example> examples,
   options.triangles = surface.triangles;
   options.lods = surface.lods;
   options.appearance.sources = surface.source;
+  options.appearance.map = result.originMap.get();
   Reconstruction made =
       reconstructSurface(result.field(), result.origins, views, options, progress);
   return {std::move(made.mesh), made.health, made.contoured, std::move(made.lods), {}};
@@ -146,6 +147,8 @@ Surface realize(const Result& result, std::span<const Example> examples,
     throw InputError("there is no result to make a surface of: " + result.why);
   if (result.form() == Form::Map) throw InputError("a map has no surface; write a .png");
   requireSurface(options, examples);
+  if (result.originMap && options.surface == SurfaceKind::Copy)
+    throw InputError("`surface` copy: on a surface the example is bent; use contour");
   Surface surface;
   if (result.form() == Form::Heights) {
     surface.mesh = meshOfHeights(result.heights(), progress.part(0, 0.7));
@@ -167,8 +170,9 @@ Surface realize(const Result& result, std::span<const Example> examples,
   } else {
     surface = options.surface == SurfaceKind::Copy ? copied(result, examples, progress)
                                                    : contoured(result, examples, options, progress);
-    turn(surface.mesh, examples.front().turn);
-    for (CoarserSurface& lod : surface.lods) turn(lod.mesh, examples.front().turn);
+    const Turn turned = turnOf(result, examples.front());
+    turn(surface.mesh, turned);
+    for (CoarserSurface& lod : surface.lods) turn(lod.mesh, turned);
   }
   nameAfter(examples.front(), surface.mesh);
   for (CoarserSurface& lod : surface.lods) nameAfter(examples.front(), lod.mesh);

@@ -46,6 +46,10 @@ std::span<const Setting> requestSettings() {
                         .meaning = "a volume, mesh or height map, stretched to the result's box, "
                                    "that says coarsely where solid should be; of terrain rough "
                                    "heights, or lines of ridges and valleys (.csv)"});
+    settings.push_back({.key = "on",
+                        .type = SettingType::File,
+                        .meaning = "a surface (mesh) that the example, which lies flat, is laid "
+                                   "on"});
     settings.push_back({.key = "pin",
                         .type = SettingType::Text,
                         .meaning = "a cell that must have one of some labels: X,Y,Z=LABEL,...",
@@ -63,6 +67,7 @@ Request requestOf(const Settings& settings, const ReadOptions& reading) {
     throw InputError("`size` and `scale` say the same thing; give one of the two");
   if (settings.has("keep")) request.decided.keep = Source(settings.text("keep"));
   if (settings.has("guide")) request.guide = Source(settings.text("guide"));
+  if (settings.has("on")) request.on = Source(settings.text("on"));
   for (const std::string& text : settings.texts("pin")) {
     const auto [cell, labels] = keyAndValue(text, "`pin`", "X,Y,Z=LABEL,...");
     request.decided.pins.push_back({parseCell(cell, "`pin` " + text), labels});

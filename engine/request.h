@@ -42,13 +42,15 @@ struct Request {
   /// Field: a volume, mesh or height map, stretched to the result's box, that says coarsely where
   /// solid should be; Heights: rough heights, or a file of ridges and valleys.
   std::optional<Source> guide;
-  ReadOptions reading;  ///< how what is kept and the guide are read
+  /// Field: a mesh that the example, which lies flat, is laid on.
+  std::optional<Source> on;
+  ReadOptions reading;  ///< how what is kept, the guide and the surface are read
   /// The engine's own settings (`Engine::settings`), by their keys.
   Settings settings;
 };
 
 /// The settings that every request has (`scale`, `size`, `seed`) and those that some engines have
-/// (`periodic`, `keep`, `guide`, `pin`), which `requestOf` reads.
+/// (`periodic`, `keep`, `guide`, `on`, `pin`), which `requestOf` reads.
 std::span<const Setting> requestSettings();
 
 /// The request that settings stand for: those of `requestSettings` are read, all others are passed

@@ -12,6 +12,10 @@
 
 namespace exemplar {
 
+Turn turnOf(const Result& result, const Example& example) {
+  return result.originMap ? Turn{} : example.turn;
+}
+
 std::string readableExtent(const Result& result) {
   switch (result.form()) {
     case Form::Field:
@@ -42,6 +46,8 @@ std::optional<SampledResult> sampled(const Result& result, const Example& exampl
 
 Result withDetail(const Result& result, std::span<const Example> finer, int factor,
                   const Progress& progress) {
+  if (result.originMap)
+    throw InputError("`detail`: a result on a surface is not re-made; use a higher `resolution`");
   SynthesisResult fine = addDetail(fieldsOf(finer), result.origins, factor, progress);
   Result detailed = result;
   detailed.data = std::move(fine.field);

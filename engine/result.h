@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "core/axes.h"
 #include "core/origin.h"
+#include "core/origin_map.h"
 #include "core/outcome.h"
 #include "engine/example.h"
 #include "maps/layer_map.h"
@@ -47,6 +49,9 @@ struct Result {
   /// For each sample the example's sample that it was taken from, or for each cell a cell of the
   /// example with its label.
   Origins origins;
+  /// Of a field that was laid on a surface: where its points came from, in place of `origins`,
+  /// which then only name the nearest sample. It lies in the surface's coordinates.
+  std::shared_ptr<const OriginMap> originMap;
 
   /// Of heights: where each came from.
   Grid<HeightOrigin> heightOrigins;
@@ -68,6 +73,9 @@ struct Result {
     return std::get<continuous::PolygonModel>(data);
   }
 };
+
+/// From where a result's field is to where it lies: as its example does, or on a surface.
+Turn turnOf(const Result& result, const Example& example);
 
 /// "128 x 128 x 24 samples" or "80 x 80 x 10 cells".
 std::string readableExtent(const Result& result);

@@ -78,7 +78,9 @@ SharedMade synthesizeAll(const std::vector<SharedExample>& given, const std::str
                          int detail, const Waiting& waiting) {
   if (given.empty()) throw InputError("synthesize: an example is wanted");
   Settings settings = settingsOf(texts);
-  const Engine& engine = engineOf(engineName, given.front()->source);
+  const Engine& engine = engineName.empty() || engineName == "auto"
+                             ? engineFor(given.front()->source, settings)
+                             : engineNamed(engineName);
   checkSettings(engine, settings);
   Request request = requestOf(settings);
   if (!keep.is_none()) request.decided.keep = sourceOf(keep);

@@ -51,8 +51,8 @@ void checkOrigins(const DistanceField& field, const Origins& origins,
 
 OriginPullView::OriginPullView(const DistanceField& field, const Origins& origins,
                                std::span<const ExampleView> examples, double blend,
-                               const Progress& progress)
-    : field_(field), origins_(origins), examples_(examples), reach_(blend + 0.5) {
+                               const OriginMap* map, const Progress& progress)
+    : field_(field), origins_(origins), examples_(examples), map_(map), reach_(blend + 0.5) {
   if (!(blend >= 0.5 && blend <= 4)) {
     throw InputError("`blend` is " + std::to_string(blend) + "; it must be 0.5..4 voxels");
   }
@@ -61,6 +61,7 @@ OriginPullView::OriginPullView(const DistanceField& field, const Origins& origin
   for (const ExampleView& example : examples) {
     surfaces_.emplace_back(example.mesh, progress);
   }
+  if (map_) return;
   // A mark lies at the lower end of its step: one sample more to be seen from the upper end.
   mixed_ = nearOtherMotions(origins, static_cast<int>(std::ceil(reach_)) + 1);
 }
@@ -72,8 +73,17 @@ std::optional<Match> OriginPullView::nearest(const OriginMotion& motion, const V
   const DistanceField& exampleField = examples_[motion.example].field;
   const double voxel = exampleField.voxelSize;
   const ExampleSurface& surface = surfaces_[motion.example];
-  const Vec3d point = exampleField.position(motion.toExample(index));
-  const Vec3d facing = motion.directionToExample(normal);
+  Vec3d point, facing;
+  if (map_) {
+    const auto place =
+        map_->place(static_cast<std::uint32_t>(motion.shift.x), field_.position(index));
+    if (!place) return std::nullopt;
+    point = exampleField.position(place->index);
+    facing = normalized(place->direction(normal));
+  } else {
+    point = exampleField.position(motion.toExample(index));
+    facing = motion.directionToExample(normal);
+  }
   const auto found =
       surface.closest(point, {.radius = radius * voxel,
                               .facing = facing,
@@ -100,6 +110,7 @@ std::optional<Match> OriginPullView::matchUnder(const OriginMotion& motion, cons
 
 void OriginPullView::match(const Vec3d& position, const Vec3d& normal, Matches& out,
                            double radius) const {
+  if (map_) return matchMapped(position, normal, out, radius);
   const Vec3d at = field_.index(position);
   Vec3d center;
   Vec3i low, high;
@@ -151,15 +162,39 @@ void OriginPullView::match(const Vec3d& position, const Vec3d& normal, Matches& 
     out.match[out.count] = *match;
     out.match[out.count++].weight = votes[n].second;
   }
+  weigh(out, best);
+}
+
+void OriginPullView::weigh(Matches& matches, double best) {
   double sum = 0;
-  for (int n = 0; n < out.count; ++n) {
-    const double worse = (out.match[n].cost - best) / kCostScale;
-    out.match[n].weight *= std::exp(-worse * worse);
-    sum += out.match[n].weight;
+  for (int n = 0; n < matches.count; ++n) {
+    const double worse = (matches.match[n].cost - best) / kCostScale;
+    matches.match[n].weight *= std::exp(-worse * worse);
+    sum += matches.match[n].weight;
   }
-  for (int n = 0; n < out.count; ++n) out.match[n].weight /= sum;
-  std::stable_sort(out.match.begin(), out.match.begin() + out.count,
+  for (int n = 0; n < matches.count; ++n) matches.match[n].weight /= sum;
+  std::stable_sort(matches.match.begin(), matches.match.begin() + matches.count,
                    [](const Match& a, const Match& b) { return a.weight > b.weight; });
+}
+
+void OriginPullView::matchMapped(const Vec3d& position, const Vec3d& normal, Matches& out,
+                                 double radius) const {
+  std::vector<OriginMap::Candidate> parts;
+  map_->candidates(position, parts);
+  out.count = 0;
+  double best = std::numeric_limits<double>::infinity();
+  for (const OriginMap::Candidate& part : parts) {
+    if (out.count == Matches::kMost) break;
+    OriginMotion motion;
+    motion.shift.x = static_cast<int>(part.part);
+    const auto match =
+        nearest(motion, field_.index(position), normal, std::min(best + kWorse, radius), {}, 0);
+    if (!match) continue;
+    best = std::min(best, match->cost);
+    out.match[out.count] = *match;
+    out.match[out.count++].weight = part.weight;
+  }
+  weigh(out, best);
 }
 
 }  // namespace exemplar

@@ -12,6 +12,7 @@
 
 #include "core/array3d.h"
 #include "core/origin.h"
+#include "core/origin_map.h"
 #include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 #include "reconstruct/transfer.h"
@@ -22,10 +23,10 @@ namespace exemplar {
 
 /// A place of an example that a point of the result may have come from.
 struct Match {
-  OriginMotion motion;
-  SurfacePoint point;  ///< the nearest on the example's surface
-  double cost = 0;     ///< its distance and how much it faces away, in voxels of the example
-  double weight = 0;   ///< 0..1; all matches of a point together have 1
+  OriginMotion motion;  ///< of an `OriginMap`'s part: (its number, 0, 0) as the shift
+  SurfacePoint point;   ///< the nearest on the example's surface
+  double cost = 0;      ///< its distance and how much it faces away, in voxels of the example
+  double weight = 0;    ///< 0..1; all matches of a point together have 1
 };
 
 /// The matches of one point, heaviest first; few, so they live on the stack.
@@ -49,10 +50,11 @@ class OriginPullView {
  public:
   static constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 
-  /// `blend`: within how many voxels samples count. Throws `InputError`, and `Cancelled`.
+  /// `blend`: within how many voxels samples count. `map`, where there is one, says where points
+  /// came from in place of the origins. Throws `InputError`, and `Cancelled`.
   OriginPullView(const DistanceField& field, const Origins& origins,
                  std::span<const ExampleView> examples, double blend,
-                 const Progress& progress = {});
+                 const OriginMap* map = nullptr, const Progress& progress = {});
 
   /// Where `position` (world) of the result, with unit normal `normal` or zero, may have come from;
   /// places farther than `radius` voxels from the example's surface do not count.
@@ -67,6 +69,9 @@ class OriginPullView {
                                   std::uint32_t group = 0, double radius = kAnywhere) const;
 
  private:
+  /// Weights by how near the places are, and the heaviest first.
+  static void weigh(Matches& matches, double best);
+  void matchMapped(const Vec3d& position, const Vec3d& normal, Matches& out, double radius) const;
   std::optional<Match> nearest(const OriginMotion& motion, const Vec3d& index, const Vec3d& normal,
                                double radius, std::span<const std::uint32_t> groups,
                                std::uint32_t group) const;
@@ -74,6 +79,7 @@ class OriginPullView {
   const DistanceField& field_;
   const Origins& origins_;
   std::span<const ExampleView> examples_;
+  const OriginMap* map_;
   double reach_;
   std::vector<ExampleSurface> surfaces_;
   Array3D<std::uint8_t> mixed_;  ///< where several motions may be within reach

@@ -132,7 +132,7 @@ void transferAppearance(TriangleMesh& result, const DistanceField& field, const 
   if (!plan.colors && !plan.coordinates && !plan.materials && !options.sources) return;
 
   progress.report("preparing the example", 0);
-  const OriginPullView pull(field, origins, examples, options.blend, progress);
+  const OriginPullView pull(field, origins, examples, options.blend, options.map, progress);
   TriangleSources sources;
   const bool manyMaterials = plan.materials && !plan.oneMaterial;
   if (plan.coordinates || manyMaterials) {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/origin.h"
+#include "core/origin_map.h"
 #include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 #include "sdf/distance_field.h"
@@ -39,6 +40,8 @@ struct TransferOptions {
   /// Rounds in which a triangle takes the material of most of its neighbors, 0..100: lone
   /// triangles at seams go.
   int materialRounds = 2;
+  /// Where points came from, in place of the origins; none: the origins say it. Outlives the call.
+  const OriginMap* map = nullptr;
   /// Keep for each corner the place of the example that it came from (`TriangleMesh::sources`).
   bool sources = false;
 };

@@ -12,7 +12,7 @@
 
 #include "core/cells.h"
 #include "core/parallel.h"
-#include "synth/geometry/seams/lattice_cut.h"
+#include "search/lattice_cut.h"
 
 namespace exemplar {
 namespace {

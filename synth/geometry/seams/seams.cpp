@@ -17,7 +17,7 @@
 
 #include "core/cells.h"
 #include "core/parallel.h"
-#include "synth/geometry/seams/lattice_cut.h"
+#include "search/lattice_cut.h"
 #include "synth/geometry/seams/regions.h"
 
 namespace exemplar {

@@ -1,7 +1,7 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include "synth/geometry/seams/lattice_cut.h"
+#include "search/minimum_cut.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,8 @@
 
 #include "core/array3d.h"
 #include "core/random.h"
+#include "search/graph_cut.h"
+#include "search/lattice_cut.h"
 
 namespace exemplar {
 namespace {
@@ -51,6 +53,29 @@ struct Problem {
     for (std::size_t n = 0; n < terminal.size(); ++n) {
       if (cut.onSecondSide(static_cast<int>(n))) second |= 1u << n;
     }
+    return second;
+  }
+  /// The same as a graph that knows of no lattice.
+  std::vector<bool> solveAsGraph() const {
+    GraphCut cut(static_cast<int>(terminal.size()));
+    for (std::size_t n = 0; n < terminal.size(); ++n)
+      cut.addTerminal(static_cast<int>(n), terminal[n]);
+    for (const Edge& e : edges) cut.connect(e.a, e.b, e.cost, e.reverse);
+    cut.solve();
+    std::vector<bool> second;
+    for (std::size_t n = 0; n < terminal.size(); ++n)
+      second.push_back(cut.onSecondSide(static_cast<int>(n)));
+    return second;
+  }
+  std::vector<bool> solveAsLattice() const {
+    LatticeCut cut(static_cast<int>(terminal.size()));
+    for (std::size_t n = 0; n < terminal.size(); ++n)
+      cut.addTerminal(static_cast<int>(n), terminal[n]);
+    for (const Edge& e : edges) cut.connect(e.a, e.b, e.direction, e.cost, e.reverse);
+    cut.solve();
+    std::vector<bool> second;
+    for (std::size_t n = 0; n < terminal.size(); ++n)
+      second.push_back(cut.onSecondSide(static_cast<int>(n)));
     return second;
   }
 };
@@ -144,6 +169,46 @@ TEST(LatticeCut, DirectionsOfAPairHaveCapacitiesOfTheirOwn) {
 TEST(LatticeCut, LargeCapacitiesDoNotOverflow) {
   const std::int64_t large = std::int64_t{1} << 60;
   EXPECT_EQ((Problem{{large, -large}, {{0, 1, 4, large - 1, large}}}.solve()), 0b10u);
+}
+
+TEST(GraphCut, CutsLatticesAsTheLatticeCutDoes) {
+  std::size_t second = 0, all = 0;
+  for (const Vec3i& size : {Vec3i{20, 15, 1}, Vec3i{9, 8, 7}, Vec3i{200, 2, 1}}) {
+    for (int trial = 0; trial < 30; ++trial) {
+      const Problem problem = randomProblem(size, trial % 2 ? 3 : 1000, trial);
+      const std::vector<bool> found = problem.solveAsGraph();
+      ASSERT_EQ(found, problem.solveAsLattice());
+      second += static_cast<std::size_t>(std::ranges::count(found, true));
+      all += found.size();
+    }
+  }
+  EXPECT_GT(second, all / 10);  // both sides occur
+  EXPECT_LT(second, all - all / 10);
+}
+
+TEST(GraphCut, IsTheLeastOfAllLabelingsOfAnyGraph) {
+  for (int trial = 0; trial < 200; ++trial) {
+    const Random random(static_cast<std::uint64_t>(trial));
+    const int nodes = 3 + trial % 9;
+    Problem problem;
+    std::uint64_t draw = 0;
+    for (int n = 0; n < nodes; ++n)
+      problem.terminal.push_back(static_cast<int>(random.below(41, draw++)) - 20);
+    for (int e = 0; e < 3 * nodes; ++e) {  // some pairs several times
+      const int a = static_cast<int>(random.below(static_cast<std::uint32_t>(nodes), draw++));
+      const int b = static_cast<int>(random.below(static_cast<std::uint32_t>(nodes), draw++));
+      if (a == b) continue;
+      problem.edges.push_back({a, b, 0, random.below(12, draw), random.below(12, draw + 1)});
+      draw += 2;
+    }
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    for (std::uint32_t labeling = 0; labeling < 1u << nodes; ++labeling)
+      least = std::min(least, problem.cost(labeling));
+    const std::vector<bool> found = problem.solveAsGraph();
+    std::uint32_t labeling = 0;
+    for (int n = 0; n < nodes; ++n) labeling |= static_cast<std::uint32_t>(found[n]) << n;
+    ASSERT_EQ(problem.cost(labeling), least) << "trial " << trial;
+  }
 }
 
 }  // namespace

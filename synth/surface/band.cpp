@@ -1,0 +1,304 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/surface/band.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "sdf/sample_distances.h"
+
+namespace exemplar::surface {
+namespace {
+
+/// How far from the surface of the example the result is asked, samples.
+constexpr double kMargin = 3;
+/// Placements that meet at a seam are mixed where they differ by less, samples.
+constexpr double kAgree = 1.5;
+/// How many rounds weights spread from node to node across seams.
+constexpr int kBlendRounds = 2;
+constexpr int kBlock = 8;
+constexpr std::size_t kChunk = 1024;  // triangles
+
+/// The few placements of a node, with their weights.
+struct Weights {
+  static constexpr int kMost = 6;
+  std::array<std::pair<std::uint32_t, float>, kMost> part{};
+  int count = 0;
+
+  void add(std::uint32_t placement, float weight) {
+    for (int k = 0; k < count; ++k) {
+      if (part[k].first != placement) continue;
+      part[k].second += weight;
+      return;
+    }
+    if (count < kMost) part[count++] = {placement, weight};
+  }
+  float of(std::uint32_t placement) const {
+    for (int k = 0; k < count; ++k)
+      if (part[k].first == placement) return part[k].second;
+    return 0;
+  }
+};
+
+/// Who is how much at each node: owners, averaged over neighbors.
+std::vector<Weights> blendedOwners(const Sheet& sheet, const Placements& placements) {
+  std::vector<Weights> weights(sheet.positions.size()), next(weights.size());
+  for (std::size_t v = 0; v < weights.size(); ++v) weights[v].add(placements.owner[v], 1);
+  for (int round = 0; round < kBlendRounds; ++round) {
+    parallelFor(0, weights.size(), 512, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const auto links = sheet.links(static_cast<std::uint32_t>(v));
+        const float share = 1.0f / static_cast<float>(links.size() + 1);
+        Weights sum;
+        for (int k = 0; k < weights[v].count; ++k)
+          sum.add(weights[v].part[k].first, share * weights[v].part[k].second);
+        for (const Sheet::Link& link : links) {
+          const Weights& there = weights[link.node];
+          for (int k = 0; k < there.count; ++k)
+            sum.add(there.part[k].first, share * there.part[k].second);
+        }
+        next[v] = sum;
+      }
+    });
+    weights.swap(next);
+  }
+  return weights;
+}
+
+/// What is asked of the example at a foot.
+struct Shown {
+  double value = 0;  ///< samples
+  std::uint32_t placement = 0;
+  Vec2d source{};
+  bool any = false;
+};
+
+Shown shownAt(std::span<const SheetContent::Part> parts, const Foot& foot, double z,
+              const Slab& slab) {
+  Shown shown;
+  double most = 0;
+  std::array<double, Weights::kMost> values{}, weights{};
+  std::size_t count = 0, main = 0;
+  for (const SheetContent::Part& part : parts) {
+    double weight = 0;
+    Vec2d source{};
+    for (int c = 0; c < 3; ++c) {
+      weight += foot.weights[c] * static_cast<double>(part.weight[c]);
+      source += part.source[c] * foot.weights[c];
+    }
+    if (count == values.size() || (weight <= 0 && parts.size() > 1)) continue;
+    values[count] = slab.value(source, z);
+    weights[count] = weight;
+    if (!shown.any || weight > most) {
+      most = weight;
+      main = count;
+      shown.placement = part.placement;
+      shown.source = source;
+      shown.any = true;
+    }
+    ++count;
+  }
+  if (!shown.any) return shown;
+  double sum = 0, total = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k != main && std::abs(values[k] - values[main]) > kAgree) continue;
+    const double weight = std::max(weights[k], 1e-9);
+    sum += weight * values[k];
+    total += weight;
+  }
+  shown.value = sum / total;
+  return shown;
+}
+
+/// How far the example reaches from the surface, and where on its z axis the surface is, samples.
+struct Reach {
+  double zero = 0, outward = 0, inward = 0, bottom = 0;
+
+  Reach(const Slab& slab, const BandOptions& options) {
+    constexpr double kBoxBottom = -0.5;
+    bottom = slab.grounded() ? kBoxBottom : slab.low();
+    switch (options.base) {
+      case Base::None:
+        zero = slab.grounded() ? slab.low() : (slab.low() + slab.top()) / 2;
+        break;
+      case Base::Under:
+        // What stands on nothing sinks in by a sample, so that it is held.
+        zero = slab.grounded() ? slab.low() : slab.low() + 1;
+        break;
+      case Base::Carve:
+        zero = slab.high();
+        break;
+    }
+    const double up = options.base == Base::Carve ? 0 : (slab.top() - zero) * options.height;
+    const double down = options.base == Base::Under ? 0 : (zero - bottom) * options.height;
+    outward = std::max(up, 0.0) + kMargin;
+    inward = std::max(down, 0.0) + kMargin;
+  }
+};
+
+}  // namespace
+
+SheetContent::SheetContent(const LocalMapper& mapper, const Placements& placements) {
+  const Sheet& sheet = mapper.sheet();
+  const std::vector<Weights> weights = blendedOwners(sheet, placements);
+  const std::size_t triangles = sheet.triangles.size();
+  const auto partsOf = [&](std::size_t t, std::vector<Part>& out) {
+    out.clear();
+    const auto& nodes = sheet.triangles[t];
+    Weights here;
+    for (const std::uint32_t v : nodes)
+      for (int k = 0; k < weights[v].count; ++k) here.add(weights[v].part[k].first, 1);
+    for (int k = 0; k < here.count; ++k) {
+      const std::uint32_t p = here.part[k].first;
+      const Placement& placement = placements.all[p];
+      std::array<std::uint32_t, 3> number{};
+      bool whole = true;
+      for (int c = 0; c < 3 && whole; ++c) {
+        const Placements::Membership* m = placements.find(nodes[c], p);
+        whole = m != nullptr;
+        if (m) number[c] = m->number;
+      }
+      for (int c = 0; c < 3 && whole; ++c) {
+        const std::uint32_t e = sheet.sides[t][c];
+        whole = mapper.joined(placement.map, number[c], number[(c + 1) % 3],
+                              {nodes[(c + 1) % 3], e, sheet.edges[e].a == nodes[c]});
+      }
+      if (!whole) continue;
+      Part part{.placement = p};
+      for (int c = 0; c < 3; ++c) {
+        part.source[c] = placement.source[number[c]];
+        part.weight[c] = weights[nodes[c]].of(p);
+      }
+      out.push_back(part);
+    }
+    if (!out.empty()) return;
+    // Behind all cuts: what one of its nodes shows, all over the triangle.
+    const std::uint32_t p = placements.owner[nodes[0]];
+    const Vec2d source = placements.all[p].source[placements.find(nodes[0], p)->number];
+    out.push_back({p, {source, source, source}, {1, 1, 1}});
+  };
+  std::vector<std::vector<Part>> chunks((triangles + kChunk - 1) / kChunk);
+  begin_.assign(triangles + 1, 0);
+  parallelFor(0, chunks.size(), 1, [&](std::size_t c0, std::size_t c1) {
+    std::vector<Part> own;
+    for (std::size_t c = c0; c < c1; ++c) {
+      for (std::size_t t = c * kChunk; t < std::min(triangles, (c + 1) * kChunk); ++t) {
+        partsOf(t, own);
+        begin_[t + 1] = static_cast<std::uint32_t>(own.size());
+        chunks[c].insert(chunks[c].end(), own.begin(), own.end());
+      }
+    }
+  });
+  for (std::size_t t = 0; t < triangles; ++t) begin_[t + 1] += begin_[t];
+  parts_.reserve(begin_.back());
+  for (const std::vector<Part>& chunk : chunks)
+    parts_.insert(parts_.end(), chunk.begin(), chunk.end());
+}
+
+Band fillBand(const Sheet& sheet, const FootFinder& feet, const SheetContent& content,
+              const Placements& placements, const Slab& slab, int symmetry,
+              const BandOptions& options, const Progress& progress) {
+  const Reach reach(slab, options);
+  const double sample = options.sample, limit = std::max(reach.outward, reach.inward) * sample;
+  Box3d box;
+  for (const Vec3d& p : sheet.positions) box.add(p);
+  const double margin = (reach.outward + 1) * sample;
+  const Vec3d extent = box.size() + Vec3d{1, 1, 1} * (2 * margin);
+  constexpr double kMostSide = 32767;
+  constexpr double kBytesPerSample = 40;  // with what contouring takes
+  const Vec3d sides = extent / sample;
+  requireMemory(kBytesPerSample * sides.x * sides.y * sides.z,
+                "a result of " + std::to_string(static_cast<long long>(sides.x)) + " x " +
+                    std::to_string(static_cast<long long>(sides.y)) + " x " +
+                    std::to_string(static_cast<long long>(sides.z)) + " samples",
+                "use a lower `resolution` or a larger `span`");
+  if (std::max({sides.x, sides.y, sides.z}) > kMostSide)
+    throw InputError("the result would be more than 32,767 samples long; use a larger `span`");
+  Vec3i size;
+  for (int axis = 0; axis < 3; ++axis) size[axis] = static_cast<int>(std::ceil(sides[axis])) + 1;
+
+  Band band;
+  band.zero = reach.zero;
+  band.limit = limit;
+  DistanceField& field = band.field;
+  constexpr float kUnknown = std::numeric_limits<float>::max();
+  field.values = Array3D<float>(size, kUnknown);
+  field.voxelSize = sample;
+  field.origin = box.min - Vec3d{1, 1, 1} * margin;
+  field.truncation = static_cast<float>(kMargin * sample);
+  band.origins = Origins(size);
+  const double scale = std::min(1.0, options.height);
+  const int quarters = 4 % symmetry == 0 ? 4 / symmetry : 0;
+  std::atomic<std::int64_t> asked = 0;
+  const auto fill = [&](const Vec3i& low, const Vec3i& high) {
+    const Vec3d first = field.position(cast<double>(low));
+    const Vec3d last = field.position(cast<double>(high - Vec3i{1, 1, 1}));
+    std::uint32_t near = TriangleTree::kNone;
+    const double radius = length(last - first) / 2;
+    if (!feet.within((first + last) * 0.5, limit + radius, near)) return;
+    std::int64_t count = 0;
+    serpentine(low, high, [&](const Vec3i& ijk) {
+      const std::optional<Foot> foot = feet.find(field.position(cast<double>(ijk)), limit, near);
+      if (!foot) return;
+      const double h = foot->height / sample, d = foot->distance / sample;
+      if (d > reach.outward || d < -reach.inward) return;
+      ++count;
+      const double z = reach.zero + h / options.height;
+      const Shown shown = shownAt(content.at(foot->triangle), *foot, z, slab);
+      double value = shown.value * scale;
+      switch (options.base) {
+        case Base::None:
+          if (slab.grounded())
+            value = std::max(value, -(h + (reach.zero - reach.bottom) * options.height));
+          break;
+        case Base::Under:
+          value = std::min(value, d);
+          break;
+        case Base::Carve:
+          value = std::max(d, std::min(value, h + (reach.zero - reach.bottom) * options.height));
+          break;
+      }
+      if (foot->beyond > 0) value = std::max(value, foot->beyond / sample);
+      field.values[ijk] = static_cast<float>(std::clamp(value, -kMargin, kMargin) * sample);
+      const auto cell = [](double x, int n) {
+        return std::clamp(static_cast<int>(std::lround(x)), 0, n - 1);
+      };
+      band.origins[ijk] = Origin({cell(shown.source.x, slab.size().x),
+                                  cell(shown.source.y, slab.size().y), cell(z, slab.size().z)},
+                                 0, quarters * placements.all[shown.placement].turn % 4);
+    });
+    asked.fetch_add(count, std::memory_order_relaxed);
+  };
+  forBlocks(size, kBlock, progress, "filling the surface's surroundings", fill);
+  band.samples = asked;
+
+  // Far from the surface a sample is on the side on which its row comes from; all begin outside.
+  const float far = field.truncation;
+  const bool solidInside = options.base != Base::None;
+  parallelFor(0, static_cast<std::size_t>(size.y) * size.z, 64,
+              [&](std::size_t begin, std::size_t end) {
+                for (std::size_t row = begin; row < end; ++row) {
+                  float* value = field.values.data() + row * static_cast<std::size_t>(size.x);
+                  float side = far;
+                  for (int i = 0; i < size.x; ++i) {
+                    if (value[i] == kUnknown) {
+                      value[i] = side;
+                    } else if (solidInside) {
+                      side = value[i] < 0 ? -far : far;
+                    }
+                  }
+                }
+              });
+  return band;
+}
+
+}  // namespace exemplar::surface
