@@ -51,6 +51,8 @@ Command addInfoCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
 Command addEnginesCommand(CLI::App& app);
 Command addCompletionCommand(CLI::App& app);
+/// One subcommand with subcommands of its own.
+std::vector<Command> addWorldCommands(CLI::App& app);
 
 /// Synthesis that could not be completed: exit status 3.
 class Unfinished : public std::runtime_error {

@@ -126,11 +126,12 @@ int main(int argc, char** argv) {
   app.formatter(std::make_shared<HelpFormatter>());
   app.footer(examplesFooter({"synth chainmail -o more.glb --preview more.png",
                              "synth wall.obj -o wall_more.obj --scale 3,1,1", "synth --help"}));
-  const std::vector<Command> commands{
+  std::vector<Command> commands{
       addSynthCommand(app),    addSdfCommand(app),       addMeshCommand(app),
       addRenderCommand(app),   addMeasureCommand(app),   addSceneCommand(app),
       addVoxelizeCommand(app), addInfoCommand(app),      addCompareCommand(app),
       addEnginesCommand(app),  addCompletionCommand(app)};
+  for (Command& command : addWorldCommands(app)) commands.push_back(std::move(command));
   for (const Command& command : commands)
     command.app->set_help_all_flag("--help-all", "list every option and exit");
   const std::vector<std::string> given(argv + 1, argv + argc);

@@ -12,8 +12,6 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
-#include "synth/model/block_counts.h"
-#include "synth/model/copied_windows.h"
 #include "synth/model/patch_alignment.h"
 #include "synth/model/patch_move.h"
 
@@ -47,7 +45,7 @@ constexpr double kMapWeight = 3;
 class PatchAnnealing {
  public:
   PatchAnnealing(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-                 std::span<const LabelGrid> examples, std::vector<Label>& labels,
+                 const PatchGoal& goal, std::uint64_t seed, std::vector<Label>& labels,
                  const AnnealSchedule& schedule, const Progress& progress);
   void run(ModelStatistics& statistics);
 
@@ -73,7 +71,8 @@ class PatchAnnealing {
   const ModelProblem& problem_;
   const ModelOptions& options_;
   const AnnealSchedule schedule_;
-  std::vector<PatchSource> sources_;
+  const std::uint64_t seed_;
+  const std::vector<PatchSource>& sources_;
   BlockCounts counts_;
   CopiedWindows copies_;
   CopiedWindows::Change copied_;
@@ -88,23 +87,24 @@ class PatchAnnealing {
 };
 
 PatchAnnealing::PatchAnnealing(const ModelProblem& problem, const LabelSets& base,
-                               const LabelChooser& chooser, std::span<const LabelGrid> examples,
-                               std::vector<Label>& labels, const AnnealSchedule& schedule,
-                               const Progress& progress)
+                               const LabelChooser& chooser, const PatchGoal& goal,
+                               std::uint64_t seed, std::vector<Label>& labels,
+                               const AnnealSchedule& schedule, const Progress& progress)
     : problem_(problem),
       options_(problem.options()),
       schedule_(schedule),
-      sources_(patchSources(problem, examples, progress)),
-      counts_(problem, sources_, progress),
-      copies_(problem, sources_),
+      seed_(seed),
+      sources_(goal.sources),
+      counts_(goal.counts),
+      copies_(goal.copies),
       alignments_(problem, sources_, &counts_),
       labels_(labels),
       progress_(progress),
       moves_([this, &problem, &base, &chooser] {
         return PatchMove(problem, base, chooser, sources_);
       }),
-      random_(problem.options().seed, stream::kPatchMoves),
-      rims_(problem.options().seed, stream::kPatchRims) {
+      random_(seed, stream::kPatchMoves),
+      rims_(seed, stream::kPatchRims) {
   grid_.assign(static_cast<std::size_t>(problem.positions()), SymmetryGroup::kNoImage);
   for (std::int64_t at = 0; at < problem.positions(); ++at) {
     const int cell = problem.cell(at);
@@ -285,7 +285,7 @@ void PatchAnnealing::run(ModelStatistics& statistics) {
   copies_.count(grid_, progress_);
   const double columns = double(options_.size.x) * options_.size.y;
   const auto total = static_cast<std::uint64_t>(columns * schedule_.moves);
-  const Random places(options_.seed, stream::kPatchPlaces);
+  const Random places(seed_, stream::kPatchPlaces);
   std::vector<Proposal> proposals;
   std::uint64_t number = 0;
   for (std::uint64_t batch = 0; number < total; ++batch) {
@@ -314,7 +314,15 @@ void annealPatches(const ModelProblem& problem, const LabelSets& base, const Lab
                    std::span<const LabelGrid> examples, std::vector<Label>& labels,
                    const AnnealSchedule& schedule, ModelStatistics& statistics,
                    const Progress& progress) {
-  PatchAnnealing(problem, base, chooser, examples, labels, schedule, progress).run(statistics);
+  annealPatches(problem, base, chooser, PatchGoal(problem, examples, progress),
+                problem.options().seed, labels, schedule, statistics, progress);
+}
+
+void annealPatches(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+                   const PatchGoal& goal, std::uint64_t seed, std::vector<Label>& labels,
+                   const AnnealSchedule& schedule, ModelStatistics& statistics,
+                   const Progress& progress) {
+  PatchAnnealing(problem, base, chooser, goal, seed, labels, schedule, progress).run(statistics);
 }
 
 }  // namespace exemplar

@@ -3,11 +3,15 @@
 
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/progress.h"
+#include "synth/model/block_counts.h"
 #include "synth/model/choose.h"
+#include "synth/model/copied_windows.h"
+#include "synth/model/patch_sources.h"
 #include "synth/model/problem.h"
 
 namespace exemplar {
@@ -17,6 +21,19 @@ struct AnnealSchedule {
   double hot = 20;   ///< the temperature at first, in blocks, >= 0; at last it is 0
   int looks = 4;     ///< columns looked at to find one where the example is not met, >= 1
   int shift = 3;     ///< how far apart these are at most, in columns, >= 0
+};
+
+/// What a labeling of a problem is annealed towards: the same for all labelings of it.
+struct PatchGoal {
+  PatchGoal(const ModelProblem& problem, std::span<const LabelGrid> examples,
+            const Progress& progress = {})
+      : sources(patchSources(problem, examples, progress)),
+        counts(problem, sources, progress),
+        copies(problem, sources) {}
+
+  std::vector<PatchSource> sources;
+  BlockCounts counts;
+  CopiedWindows copies;
 };
 
 /// Makes a labeling hold what the example holds: Metropolis sampling with patches of the example as
@@ -45,6 +62,12 @@ struct AnnealSchedule {
 /// thread. Throws `Cancelled`.
 void annealPatches(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                    std::span<const LabelGrid> examples, std::vector<Label>& labels,
+                   const AnnealSchedule& schedule, ModelStatistics& statistics,
+                   const Progress& progress = {});
+/// The same for one of several labelings of a problem, with the random numbers of `seed` in place
+/// of the request's.
+void annealPatches(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+                   const PatchGoal& goal, std::uint64_t seed, std::vector<Label>& labels,
                    const AnnealSchedule& schedule, ModelStatistics& statistics,
                    const Progress& progress = {});
 

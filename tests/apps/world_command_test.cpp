@@ -1,0 +1,227 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+// Worlds as a user makes them: tile by tile, in any order, by any number of processes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/file.h"
+#include "mesh/mesh_file.h"
+#include "tests/apps/run_command.h"
+
+namespace exemplar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A world of the castle, with few moves and small tiles.
+class WorldCommand : public testing::Test {
+ protected:
+  WorldCommand() {
+    const auto run = world("init castle -o w --tile 24 --window 24 --moves 1 --seed 5");
+    EXPECT_EQ(run.status, 0) << run.err;
+  }
+
+  CommandResult world(const std::string& arguments) const {
+    return runExemplar("world " + arguments, folder_.path());
+  }
+  /// The bytes of each tile's file of an ending.
+  std::map<std::string, std::string> tiles(const std::string& ending) const {
+    std::map<std::string, std::string> found;
+    if (!fs::exists(folder_ / "w/tiles")) return found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "w/tiles"))
+      if (entry.path().extension() == ending)
+        found[fs::relative(entry.path(), folder_ / "w/tiles").string()] = readFile(entry.path());
+    return found;
+  }
+  void damage(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string text = readFile(folder_ / file);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, text.npos);
+    writeFile(folder_ / file, text.replace(at, from.size(), to));
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(WorldCommand, TilesAreTheSameAloneOrTogetherAndWhateverIsCached) {
+  ASSERT_EQ(world("make w --region -1:2,-1:2 --formats txt --threads 8").status, 0);
+  const auto together = tiles(".txt");
+  ASSERT_EQ(together.size(), 9u);
+  std::set<std::string> contents;
+  for (const auto& [name, bytes] : together) contents.insert(bytes);
+  EXPECT_EQ(contents.size(), 9u) << "no tile is another one's copy";
+
+  // Each by a process of its own, in another order, with a cache of which half is deleted.
+  fs::remove_all(folder_ / "w/tiles");
+  int n = 0;
+  for (const char* tile : {"1,1", "0,-1", "1,0", "0,0", "1,-1", "0,1"}) {
+    const std::string threads = n % 2 ? "1" : "8";
+    ASSERT_EQ(
+        world("tile w " + std::string(tile) + " --formats txt --cache --threads " + threads).status,
+        0);
+    std::vector<fs::path> windows;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "w/cache"))
+      if (entry.is_regular_file()) windows.push_back(entry.path());
+    EXPECT_FALSE(windows.empty());
+    std::sort(windows.begin(), windows.end());
+    for (std::size_t w = 0; w < windows.size(); w += 2) fs::remove(windows[w]);
+    // And one is cut short.
+    if (windows.size() > 1) fs::resize_file(windows[1], fs::file_size(windows[1]) / 2);
+    ++n;
+  }
+  const auto alone = tiles(".txt");
+  EXPECT_EQ(alone.size(), 6u);
+  for (const auto& [name, bytes] : alone) EXPECT_TRUE(together.at(name) == bytes) << name;
+}
+
+TEST_F(WorldCommand, MakeGoesOnWhereItWasAndMakesNothingTwice) {
+  ASSERT_EQ(world("make w --region 0:1,0:2 --formats vox").status, 0);
+  const auto before = fs::last_write_time(folder_ / "w/tiles/0/0/1.vox");
+  const auto run = world("make w --region 0:2,0:2 --formats vox");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("2 tiles made, 2 were there"));
+  EXPECT_EQ(fs::last_write_time(folder_ / "w/tiles/0/0/1.vox"), before);
+  EXPECT_EQ(tiles(".vox").size(), 4u);
+  EXPECT_EQ(world("index w").status, 0);
+  const auto index = nlohmann::json::parse(readFile(folder_ / "w/index.json"));
+  EXPECT_EQ(index["tiles"].size(), 4u);
+}
+
+TEST_F(WorldCommand, CheckFindsThatAllFitsAndWhatDoesNot) {
+  ASSERT_EQ(world("make w --region 0:3,0:2 --formats glb,txt").status, 0);
+  const auto run = world("check w --region 0:3,0:2 --remake 100");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(" 0 that the example does not show"));
+  EXPECT_THAT(run.out, HasSubstr("12, 12 of them made again, 0 not the same bytes"));
+  EXPECT_THAT(run.out, HasSubstr("edges of meshes between tiles, 0 unmatched"));
+  EXPECT_EQ(run.out.find(" 0 edges of meshes"), run.out.npos) << "there were some to match";
+
+  // A tile of another place is found out.
+  fs::copy_file(folder_ / "w/tiles/0/0/0.glb", folder_ / "w/tiles/0/1/1.glb",
+                fs::copy_options::overwrite_existing);
+  const auto bad = world("check w --region 0:3,0:2 --remake 100");
+  EXPECT_EQ(bad.status, 3);
+  EXPECT_THAT(bad.err, HasSubstr("1.glb is not what this machine makes"));
+  EXPECT_EQ(bad.out.find("tiles, 0 unmatched"), bad.out.npos);
+}
+
+TEST_F(WorldCommand, ExportIsWhatItsTilesAre) {
+  ASSERT_EQ(world("export w --region 0:2,0:1 -o r.txt").status, 0);
+  ASSERT_EQ(world("export w --region 0:2,0:1 -o r.glb").status, 0);
+  EXPECT_GT(readMesh(folder_ / "r.glb").triangles.size(), 0u);
+  EXPECT_THAT(readFile(folder_ / "r.txt"), HasSubstr("48 24 7"));
+}
+
+TEST_F(WorldCommand, PlansHoldEachTileOnce) {
+  const auto json = world("plan w --region 0:9,0:5 --as json");
+  ASSERT_EQ(json.status, 0) << json.err;
+  std::int64_t count = 0;
+  const auto plan = nlohmann::json::parse(json.out);
+  for (const auto& job : plan["jobs"]) count += job["tiles"].get<int>();
+  EXPECT_EQ(count, 45);
+  const auto lines = world("plan w --region 0:9,0:5 --as parallel");
+  EXPECT_EQ(std::count(lines.out.begin(), lines.out.end(), '\n'),
+            static_cast<std::ptrdiff_t>(plan["jobs"].size()));
+  const auto slurm = world("plan w --region 0:9,0:5 --as slurm");
+  EXPECT_THAT(slurm.out, HasSubstr("#SBATCH --array=0-" + std::to_string(plan["jobs"].size() - 1)));
+}
+
+TEST_F(WorldCommand, TheSameRequestOpensAnotherOneIsRefused) {
+  const std::string same = "init castle -o w --tile 24 --window 24 --moves 1 --seed 5";
+  EXPECT_EQ(world(same).status, 0);
+  for (const char* other : {" --tile 32", " --seed 6", " --moves 2"}) {
+    std::string request = same;
+    const std::string key = std::string(other).substr(0, std::string(other).rfind(' '));
+    const std::size_t at = request.find(key);
+    request.erase(at, request.find(" --", at + 1) - at);
+    const auto run = world(request + other);
+    EXPECT_EQ(run.status, 2) << other;
+    EXPECT_THAT(run.err, HasSubstr("holds another world already"));
+  }
+}
+
+TEST_F(WorldCommand, RefusesInOneLine) {
+  const std::pair<const char*, const char*> refused[] = {
+      {"init castle -o v --count 3=1..2", "--count"},
+      {"init castle -o v --connect 3", "--connect"},
+      {"init castle -o v --mirror x", "--mirror"},
+      {"init castle -o v --size 20,20,7", "world"},
+      {"init castle -o v --side left=free", "--side"},
+      {"init chainmail -o v", "makes no worlds"},
+      {"init nothing.txt -o v", "nothing.txt"},
+      {"tile w 1048576,0 -o t.txt", "1048575"},
+      {"tile w 1 -o t.txt", "two whole numbers"},
+      {"tile w 0,0 -o t.bmp", "t.bmp"},
+      {"make w --region 0:0,0:4", "holds no tile"},
+      {"make w", "--region"},
+      {"make nowhere --region 0:1,0:1", "is no world"},
+      {"make w --region 0:1,0:1 --formats tiff", "tiff"},
+  };
+  for (const auto& [arguments, part] : refused) {
+    const auto run = world(arguments);
+    EXPECT_EQ(run.status, 2) << arguments << run.err;
+    EXPECT_THAT(run.err, HasSubstr(part)) << arguments;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+}
+
+TEST_F(WorldCommand, AnExampleThatRepeatsNowhereIsRefused) {
+  // Each label is followed by the next one, and the last by none.
+  writeFile(folder_ / "row.txt", "X Y Z:\n4 2 1\n\n1 2\n3 4\n5 6\n7 8\n");
+  const auto run = world("init row.txt -o v");
+  EXPECT_EQ(run.status, 3) << run.out;
+  EXPECT_THAT(run.err, HasSubstr("repeats over the plane"));
+}
+
+TEST_F(WorldCommand, AMachineThatMakesOtherBytesIsRefused) {
+  const auto json = nlohmann::json::parse(readFile(folder_ / "w/world.json"));
+  const std::string canary = json["canary"]["xxh3"];
+  damage("w/world.json", "\"fingerprint\": \"exemplar", "\"fingerprint\": \"another exemplar");
+  // The same bytes on another kind of machine: found out once, and believed then.
+  EXPECT_EQ(world("make w --region 0:1,0:1 --formats txt").status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "w/verified"));
+  fs::remove_all(folder_ / "w/verified");
+  fs::remove_all(folder_ / "w/tiles");
+  damage("w/world.json", canary, "0123456789abcdef");
+  const auto run = world("make w --region 0:1,0:1 --formats txt");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("makes other tiles"));
+  EXPECT_TRUE(tiles(".txt").empty());
+}
+
+TEST_F(WorldCommand, AnotherExampleInItsPlaceIsRefused) {
+  std::ofstream(folder_ / "w/example/castle.toml", std::ios::app) << "# more\n";
+  const auto run = world("tile w 0,0 -o t.txt");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("is not what the world was made of"));
+}
+
+TEST_F(WorldCommand, InterruptedItLeavesWholeTiles) {
+  const auto run = interruptExemplar(
+      {"world", "make", "w", "--region", "0:40,0:40", "--formats", "txt", "--job", "2"},
+      folder_.path(), SIGINT, std::chrono::milliseconds(1500));
+  EXPECT_EQ(run.status, 4) << run.err;
+  const auto some = tiles(".txt");
+  EXPECT_LT(some.size(), 1600u);
+  // What is there is what is made without being interrupted.
+  fs::remove_all(folder_ / "w/tiles");
+  ASSERT_EQ(world("make w --region 0:2,0:2 --formats txt").status, 0);
+  for (const auto& [name, bytes] : tiles(".txt"))
+    if (some.contains(name)) EXPECT_TRUE(some.at(name) == bytes) << name;
+}
+
+}  // namespace
+}  // namespace exemplar
