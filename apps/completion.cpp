@@ -56,6 +56,22 @@ CompletedOption completed(const CLI::Option& option) {
   return one;
 }
 
+/// What a command's own options and words add to what is proposed after its name.
+void addOptions(const CLI::App& app, const std::vector<std::string>& scenes,
+                CompletedCommand& command) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->nonpositional()) {
+      CompletedOption one = completed(*option);
+      const bool known = std::ranges::any_of(command.options, [&](const CompletedOption& other) {
+        return other.shortNames == one.shortNames && other.longNames == one.longNames;
+      });
+      if (!known) command.options.push_back(std::move(one));
+    } else if (option->get_name() == "EXAMPLE" || option->get_name() == "NAME") {
+      command.words.insert(command.words.end(), scenes.begin(), scenes.end());
+    }
+  }
+}
+
 /// Text between single quotes of a shell.
 std::string shellQuoted(std::string_view text) {
   std::string result = "'";
@@ -214,14 +230,14 @@ std::string fishScript(const std::vector<CompletedCommand>& commands) {
 std::vector<CompletedCommand> completedCommands(const CLI::App& app,
                                                 const std::vector<std::string>& scenes) {
   std::vector<CompletedCommand> commands;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+  const auto all = [](const CLI::App*) { return true; };
+  for (const CLI::App* sub : app.get_subcommands(all)) {
     CompletedCommand command{sub->get_name(), oneLine(sub->get_description()), {}, {}};
-    for (const CLI::Option* option : sub->get_options()) {
-      if (option->nonpositional()) {
-        command.options.push_back(completed(*option));
-      } else if (option->get_name() == "EXAMPLE" || option->get_name() == "NAME") {
-        command.words = scenes;
-      }
+    addOptions(*sub, scenes, command);
+    // A command of its own commands: their names are words, their options are all proposed.
+    for (const CLI::App* own : sub->get_subcommands(all)) {
+      command.words.push_back(own->get_name());
+      addOptions(*own, scenes, command);
     }
     commands.push_back(std::move(command));
   }

@@ -7,7 +7,7 @@ set(folder ${PROJECT_BINARY_DIR}/package)
 file(MAKE_DIRECTORY ${folder})
 
 # Man pages: of the command, and of each of its subcommands as `exemplar-synth`.
-set(subcommands synth sdf mesh render measure scene voxelize info compare engines completion)
+set(subcommands synth sdf mesh render measure scene voxelize info compare engines completion world)
 foreach(subcommand IN ITEMS "" ${subcommands})
   string(REGEX REPLACE "^(.+)$" "-\\1" dashed "${subcommand}")
   set(page ${folder}/exemplar${dashed}.1)
