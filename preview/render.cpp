@@ -43,6 +43,9 @@ void validate(const RenderOptions& o) {
   check(within(o.width, 1, 16384) && within(o.height, 1, 16384),
         "a picture of " + std::to_string(o.width) + " x " + std::to_string(o.height) +
             " pixels; each side must be 1..16384");
+  check(!o.crop || (within(o.crop->width, 1, 16384) && within(o.crop->height, 1, 16384) &&
+                    within(o.crop->left, -65536, 65536) && within(o.crop->top, -65536, 65536)),
+        "the sides of what is taken of the picture must be 1..16384 pixels");
   check(std::isfinite(o.view.azimuth), "the view's azimuth must be finite");
   check(within(o.view.elevation, -kRight, kRight), "the view's elevation must be -pi/2..pi/2");
   check(within(o.samples, 1, 4096),
@@ -55,6 +58,10 @@ void validate(const RenderOptions& o) {
   check(within(o.keyElevation, 0.05, kRight), "keyElevation must be 0.05..pi/2");
   check(within(o.keyRadius, 0.001, 0.5), "keyRadius must be 0.001..0.5 radians");
   check(within(o.creaseAngle, 0, kRight), "creaseAngle must be 0..pi/2");
+}
+
+Crop takenOf(const RenderOptions& options) {
+  return options.crop.value_or(Crop{0, 0, options.width, options.height});
 }
 
 // A point on the mesh or the floor that light is gathered for.
@@ -96,6 +103,7 @@ class Photographer {
                                      const PixelSampler& sampler, int firstPath) const;
 
   RenderOptions options_;
+  Crop taken_;
   SceneScale scale_;
   Tracer tracer_;
   std::vector<std::array<Vec3f, 3>> normals_;
@@ -123,6 +131,7 @@ Vec3f backgroundLight() {
 Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& options,
                            const Progress& progress)
     : options_(options),
+      taken_(takenOf(options)),
       scale_(sceneScale(boundingBox(mesh), options.view.elevation < 0)),
       tracer_(mesh, scale_, progress),
       normals_(cornerNormals(mesh, options.creaseAngle)),
@@ -386,7 +395,8 @@ FilmPixel Photographer::pixel(const PixelSampler& sampler, int x, int y) const {
       const auto tent = [](double t) {
         return 0.75 * (t < 0.5 ? std::sqrt(2 * t) - 1 : 1 - std::sqrt(2 - 2 * t));
       };
-      rays[k] = cameraRay(x + 0.5 + tent(at.x), y + 0.5 + tent(at.y), &skipped[k]);
+      rays[k] = cameraRay(x + taken_.left + 0.5 + tent(at.x), y + taken_.top + 0.5 + tent(at.y),
+                          &skipped[k]);
       live[k] = true;
     }
     const Hits hits = tracer_.nearest(rays, live, true);
@@ -459,19 +469,19 @@ void Photographer::expose(Film& film, int left, int top, const Progress& progres
 Image8 render(const TriangleMesh& mesh, const RenderOptions& options, const Progress& progress) {
   validate(options);
   validate(mesh, "render");
-  const double pixels = static_cast<double>(options.width) * options.height;
-  requireMemory(pixels * (sizeof(FilmPixel) + 2 * 3 * sizeof(NoisyLight)) +
-                    300.0 * static_cast<double>(mesh.triangles.size()),
-                "a picture of " + std::to_string(options.width) + " x " +
-                    std::to_string(options.height) + " pixels",
-                "ask for a smaller one");
+  const auto [left, top, width, height] = takenOf(options);
+  const double pixels = static_cast<double>(width) * height;
+  requireMemory(
+      pixels * (sizeof(FilmPixel) + 2 * 3 * sizeof(NoisyLight)) +
+          300.0 * static_cast<double>(mesh.triangles.size()),
+      "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
+      "ask for a smaller one");
   progress.report("preparing the picture", 0);
   const Photographer photographer(mesh, options, progress);
 
-  Film film{options.width, options.height,
-            std::vector<FilmPixel>(static_cast<std::size_t>(options.width) * options.height)};
-  const int columns = (options.width + kTile - 1) / kTile;
-  const int tiles = columns * ((options.height + kTile - 1) / kTile);
+  Film film{width, height, std::vector<FilmPixel>(static_cast<std::size_t>(width) * height)};
+  const int columns = (width + kTile - 1) / kTile;
+  const int tiles = columns * ((height + kTile - 1) / kTile);
   const Progress exposing = progress.part(0.02, 0.95);
   LoopProgress exposed(exposing, "rendering", static_cast<std::size_t>(tiles));
   parallelFor(0, tiles, 1, [&](std::size_t begin, std::size_t end) {
@@ -484,7 +494,7 @@ Image8 render(const TriangleMesh& mesh, const RenderOptions& options, const Prog
   });
   denoise(film, progress.part(0.95, 1));
 
-  Image8 image{options.width, options.height, 3, {}};
+  Image8 image{width, height, 3, {}};
   image.pixels.resize(film.pixels.size() * 3);
   parallelFor(0, film.pixels.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {

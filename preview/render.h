@@ -27,6 +27,11 @@ struct View {
 /// `InputError` listing the names for anything else.
 View viewFromName(std::string_view name);
 
+/// A rectangle of a picture, in pixels from its left and its top; it may reach beyond the picture.
+struct Crop {
+  int left = 0, top = 0, width = 0, height = 0;
+};
+
 struct RenderOptions {
   int width = 960, height = 720;  ///< pixels, 1..16384
   View view;
@@ -38,6 +43,8 @@ struct RenderOptions {
   /// What the camera holds, in place of the mesh's own vertices: pictures with frames of one size
   /// (see `frameOfSize`) and one view show their meshes at one scale.
   std::optional<Box3d> frame;
+  /// What is taken of the picture in place of all of it; its sides 1..16384.
+  std::optional<Crop> crop;
   double margin = 0.06;       ///< free share of the picture on each side, 0..0.45
   double fieldOfView = 0.52;  ///< radians across the picture's shorter side, 0.01..2.5
 
@@ -77,8 +84,10 @@ inline constexpr std::uint8_t kBackground[3] = {240, 240, 241};
 /// are centered. All have 3 channels. Throws `InputError` for none, or where they would not fit.
 Image8 sideBySide(std::span<const Image8> pictures, int gap = 0);
 
-/// Meshes in a row at one scale, each in a picture of the size that `options` says: framed by a box
-/// of the largest one's size. Throws as `render` and `sideBySide` do.
+/// Meshes in a row at one scale and on one floor, each as wide as what it shows and a little free
+/// space. The row is as large as fits into pictures of the size that `options` says, one for each
+/// mesh beside the others: that wide, or that high where it would be higher. One mesh alone has a
+/// picture of that size. Throws as `render` and `sideBySide` do.
 Image8 renderSideBySide(std::span<const TriangleMesh> meshes, const RenderOptions& options,
                         const Progress& progress = {});
 

@@ -6,7 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/error.h"
 #include "mesh/primitives.h"
@@ -197,6 +199,65 @@ TEST(SideBySide, PutsPicturesInARow) {
   EXPECT_EQ(row.at(2, 2)[0], kBackground[0]);
   EXPECT_EQ(row.at(5, 3)[0], 20);
   EXPECT_THROW(sideBySide({}), InputError);
+}
+
+/// The columns, or rows, of a picture that show more than the background, in runs: the first and
+/// the last of each.
+std::vector<std::array<int, 2>> runsOf(const Image8& image, bool columns) {
+  std::vector<std::array<int, 2>> runs;
+  for (int i = 0; i < (columns ? image.width : image.height); ++i) {
+    bool shown = false;
+    for (int j = 0; j < (columns ? image.height : image.width) && !shown; ++j)
+      shown = columns ? !isBackground(image, i, j) : !isBackground(image, j, i);
+    if (!shown) continue;
+    if (runs.empty() || runs.back()[1] < i - 2) runs.push_back({i, i});
+    runs.back()[1] = i;
+  }
+  return runs;
+}
+
+TEST(SideBySide, MeshesFillTheRowAtOneScaleOnOneFloor) {
+  RenderOptions options = quick("front");
+  options.ground = false;
+  options.samples = 32;
+  const std::vector<TriangleMesh> meshes{makeBox({{0, 0, 0}, {2, 0.01, 1}}),
+                                         makeBox({{5, 5, 5}, {9, 5.01, 7}})};
+  const Image8 row = renderSideBySide(meshes, options);
+  EXPECT_LE(row.width, 2 * options.width);
+  EXPECT_LE(row.height, options.height);
+  EXPECT_TRUE(row.width == 2 * options.width || row.height >= options.height - 3) << row.width;
+  const auto across = runsOf(row, true), down = runsOf(row, false);
+  ASSERT_EQ(across.size(), 2u);
+  ASSERT_EQ(down.size(), 1u);
+  const int small = across[0][1] - across[0][0], large = across[1][1] - across[1][0];
+  EXPECT_NEAR(large, 2 * small, 4) << "one scale";
+  EXPECT_GT(small + large, 0.85 * row.width);
+  EXPECT_GT(down[0][1] - down[0][0], 0.8 * row.height);
+  // Both stand on the lowest row that shows anything.
+  for (const auto& run : across)
+    EXPECT_FALSE(isBackground(row, (run[0] + run[1]) / 2, down[0][1] - 2));
+}
+
+TEST(SideBySide, OneMeshAloneHasThePictureThatItHadWithoutTheRow) {
+  const std::vector<TriangleMesh> one{makeBox({{0, 0, 0}, {2, 1, 1}})};
+  EXPECT_EQ(renderSideBySide(one, quick()).pixels, render(one[0], quick()).pixels);
+}
+
+TEST(Render, ACropIsThatPartOfThePicture) {
+  const TriangleMesh box = makeBox({{0, 0, 0}, {2, 1, 1}});
+  RenderOptions options = quick();
+  options.samples = 64;
+  const Image8 whole = render(box, options);
+  options.crop = Crop{40, 30, 64, 50};
+  const Image8 part = render(box, options);
+  ASSERT_EQ(part.width, 64);
+  ASSERT_EQ(part.height, 50);
+  double apart = 0;
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x)
+      apart += std::abs(luminance(part, x, y) - luminance(whole, x + 40, y + 30));
+  }
+  EXPECT_LT(apart / (64 * 50), 3) << "but for the noise";
 }
 
 }  // namespace
