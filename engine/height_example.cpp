@@ -30,8 +30,9 @@ void readAsHeights(Example& example, const Progress& progress) {
                         numberText(map.cellSize);
   const std::optional<HeightRange> range = rangeOf(map.heights);
   if (range && range->holes > 0) {
-    example.warnings.push_back(example.name() + ": nothing is made of its " +
-                               counted(range->holes, "point") + " without data");
+    example.warnings.push_back(
+        example.name() + ": nothing is made of its " + counted(range->holes, "point") +
+        " without data; `fill` makes land of them, `keep-holes` more of them");
   }
   example.data = std::move(map);
 }

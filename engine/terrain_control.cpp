@@ -192,4 +192,34 @@ void readHeld(const std::optional<Source>& keep, const TerrainFiles& files, cons
     for (int x = 0; x < width; ++x) hold(control, x, y, base(x, y), firmness(distance(x, y)));
 }
 
+void holdData(const Example& example, TerrainControl& control) {
+  const Grid<float>& heights = example.heights().heights;
+  control.given = heights;
+  control.hold = Grid<float>(heights.width(), heights.height());
+  std::size_t holes = 0;
+  for (std::size_t s = 0; s < heights.count(); ++s) {
+    const bool hole = std::isnan(heights[s]);
+    control.hold[s] = hole ? 0 : 1;
+    if (hole) control.given[s] = 0;
+    holes += hole;
+  }
+  if (holes == 0)
+    throw InputError(example.name() + ": has data everywhere; there is nothing for `fill` to fill");
+}
+
+Grid<std::uint8_t> takeHoles(Grid<float>& heights) {
+  Grid<std::uint8_t> holes(heights.width(), heights.height());
+  for (std::size_t s = 0; s < heights.count(); ++s) holes[s] = std::isnan(heights[s]);
+  fillHoles(heights);
+  return holes;
+}
+
+void putHoles(std::span<const Grid<std::uint8_t>> holes, SynthesizedTerrain& made) {
+  for (std::size_t s = 0; s < made.heights.count(); ++s) {
+    const HeightOrigin& origin = made.origins[s];
+    if (holes[origin.example](origin.x, origin.y))
+      made.heights[s] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
 }  // namespace exemplar

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,5 +44,13 @@ Grid<float> readTerrainGuide(const Source& source, std::span<const Grid<float>> 
 /// `mask` paints black, with a transition of `blend` points beside it. Throws `InputError`.
 void readHeld(const std::optional<Source>& keep, const TerrainFiles& files, const Example& example,
               int width, int height, TerrainControl& control, const Progress& progress = {});
+
+/// Holds all points of the example that have data. Throws `InputError` where all have.
+void holdData(const Example& example, TerrainControl& control);
+
+/// Where a map has no data, which it then has: smoothly between what lies around.
+Grid<std::uint8_t> takeHoles(Grid<float>& heights);
+/// Leaves out of a result what comes from holes (of the examples, in their order).
+void putHoles(std::span<const Grid<std::uint8_t>> holes, SynthesizedTerrain& made);
 
 }  // namespace exemplar

@@ -24,6 +24,7 @@ constexpr double kBytesOfResult = 80, kBytesOfExample = 40;
 struct TerrainSettings {
   TerrainSynthesisOptions synthesis;
   TerrainFiles files;
+  bool fill = false, keepHoles = false;
 };
 
 SettingTable<TerrainSettings>::Row fileRow(std::string key, std::string TerrainFiles::*member,
@@ -81,6 +82,13 @@ const SettingTable<TerrainSettings>& terrainSettings() {
       settingRow<O>(
           "keep-hollows", [](O& o) -> bool& { return o.synthesis.keepsHollows; },
           "cut no outlets, so that hollows hold water"),
+      settingRow<O>(
+          "fill", [](O& o) -> bool& { return o.fill; },
+          "the result is the example itself, and its points without data become land like the "
+          "rest; all others stay as they are"),
+      settingRow<O>(
+          "keep-holes", [](O& o) -> bool& { return o.keepHoles; },
+          "the result has points without data where its pieces have them, as the example does"),
       settingRow<O>("follow", [](O& o) -> double& { return o.files.follow; },
                     "how strictly `guide` is followed", {0, 1}),
       fileRow("detail-of", &TerrainFiles::detailOf,
@@ -123,7 +131,8 @@ class TerrainEngine final : public Engine {
       size.z = 1;
       return size;
     }
-    const Vec3d usual = settings.files.mask.empty() ? Vec3d{2, 2, 1} : Vec3d{1, 1, 1};
+    const bool itself = settings.fill || !settings.files.mask.empty();
+    const Vec3d usual = itself ? Vec3d{1, 1, 1} : Vec3d{2, 2, 1};
     Vec3i size = resultSize(request, {map.width(), map.height(), 1}, usual, "points");
     size.z = 1;
     return size;
@@ -147,6 +156,17 @@ class TerrainEngine final : public Engine {
       throw InputError("`keep-at`: say with `keep` what of the example stays");
     if (!settings.files.base.empty() && settings.files.mask.empty())
       throw InputError("`base`: say with `mask` what of it is made anew");
+    if (settings.fill && (request.extent.size || request.extent.scale))
+      throw InputError(
+          "`fill` makes the example whole, at its own size; leave `size` and `scale` out");
+    if (settings.fill &&
+        (request.decided.keep || !settings.files.mask.empty() || !settings.files.detailOf.empty() ||
+         request.guide || settings.keepHoles)) {
+      throw InputError(
+          "`fill` leaves all that the example has as it is; `keep`, `mask`, `detail-of`, `guide` "
+          "and "
+          "`keep-holes` have no meaning beside it");
+    }
     if (request.periodic.z) throw InputError("`periodic` z: height maps tile along x and y");
   }
   Result synthesize(std::span<const Example> examples, const Request& request,
@@ -182,15 +202,26 @@ class TerrainEngine final : public Engine {
     }
     readHeld(request.decided.keep, settings.files, examples.front(), size.x, size.y,
              options.control, progress.part(0.03, 0.05));
+    if (settings.fill) holdData(examples.front(), options.control);
+    std::vector<Grid<std::uint8_t>> holes;
+    if (settings.keepHoles) {
+      for (Grid<float>& map : heights) holes.push_back(takeHoles(map));
+    }
     SynthesizedTerrain made = synthesizeTerrain(heights, options, progress.part(0.05, 1));
+
+    if (settings.keepHoles) putHoles(holes, made);
 
     Result result;
     // In the example's units. It lies nowhere on earth, unless it is a terrain that does.
     result.data = HeightMap{std::move(made.heights), first.cellSize, first.cellSizeKnown,
-                            coarse ? coarse->map.corner : std::nullopt, first.steps};
+                            settings.fill ? first.corner
+                            : coarse      ? coarse->map.corner
+                                          : std::nullopt,
+                            first.steps};
     result.heightOrigins = std::move(made.origins);
     result.statistics = {{"levels", std::int64_t{made.levels}},
                          {"orientations", static_cast<std::int64_t>(made.turns.size())},
+                         {"flooded_before_outlets", made.flooded},
                          {"outlets", made.outlets},
                          {"deepest_cut", made.deepestCut},
                          {"mean_cut", made.meanCut}};

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "maps/halved.h"
+#include "synth/terrain/standing_water.h"
 
 namespace exemplar {
 namespace {
@@ -97,6 +98,16 @@ std::vector<HeightLevel> heightPyramid(std::span<const Grid<float>> examples, in
     }
   }
   for (HeightLevel& level : pyramid) level.bank = bankOf(level.sources);
+  std::vector<Grid<std::uint8_t>> water;
+  for (const Grid<float>& example : examples) water.push_back(flatWater(example));
+  const auto hasWater = [](const Grid<std::uint8_t>& map) {
+    return std::ranges::any_of(map.values(), [](std::uint8_t kind) { return kind != kLand; });
+  };
+  if (std::ranges::none_of(water, hasWater)) return pyramid;
+  for (HeightLevel& level : pyramid) {
+    level.water = water;
+    for (Grid<std::uint8_t>& map : water) map = halvedWater(map);
+  }
   return pyramid;
 }
 

@@ -18,6 +18,8 @@ struct HeightLevel {
   /// Heights less what the next coarser resolution has there; 0 on the coarsest.
   std::vector<Grid<float>> details;
   double bank = 1;  ///< a steep step between neighbors
+  /// Of each source what is flat water; none where no example has any.
+  std::vector<Grid<std::uint8_t>> water;
 };
 
 /// The examples on `levels` resolutions, the finest first; each is the mean of 2 x 2 samples of the

@@ -73,8 +73,8 @@ class HeightQueue {
 class Outlets {
  public:
   Outlets(Grid<float>& heights, const Grid<std::uint8_t>& held, const OutletOptions& options,
-          const Progress& progress)
-      : heights_(heights), held_(held), options_(options), progress_(progress) {
+          const WaterBodies* water, const Progress& progress)
+      : heights_(heights), held_(held), options_(options), water_(water), progress_(progress) {
     for (const float h : heights.values()) {
       if (std::isnan(h)) continue;
       least_ = std::min(least_, h);
@@ -85,6 +85,7 @@ class Outlets {
   OutletsCut run() {
     OutletsCut made;
     if (!(most_ > least_)) return made;
+    keepHollows(made);
     fill();
     cut(made);
     return made;
@@ -110,6 +111,7 @@ class Outlets {
   }
 
   bool isOutlet(std::uint32_t sample) const {
+    if (bodyOf(sample) == kSeaBody) return true;
     for (int d = 0; d < 8; ++d) {
       std::uint32_t n;
       if (!neighbor(sample, d, n) || std::isnan(heights_[n])) return true;
@@ -156,21 +158,71 @@ class Outlets {
     }
   }
 
-  /// Fills hollows by their share.
-  void fill() {
-    if (options_.fill <= 0) return;
+  std::uint32_t bodyOf(std::size_t s) const { return water_ ? water_->bodies[s] : 0; }
+  /// What must not be moved.
+  bool isHeld(std::size_t s) const { return (!held_.empty() && held_[s]) || bodyOf(s) != 0; }
+  bool isKept(std::size_t s) const { return !kept_.empty() && kept_[s]; }
+
+  /// Counts what is flooded, and finds the hollows that stay.
+  void keepHollows(OutletsCut& made) {
     std::vector<float> level(heights_.values().begin(), heights_.values().end());
-    const auto fall = static_cast<float>(options_.fall);
     flood([&](std::uint32_t n,
-              std::uint32_t from) { return level[n] = std::max(level[n], level[from] + fall); },
+              std::uint32_t from) { return level[n] = std::max(level[n], level[from]); },
           [](std::uint32_t) {});
-    for (std::size_t s = 0; s < level.size(); ++s) {
-      if (level[s] > heights_[s] && !isHeld(s))
-        heights_[s] += static_cast<float>(options_.fill) * (level[s] - heights_[s]);
+    std::size_t flooded = 0;
+    for (std::size_t s = 0; s < level.size(); ++s) flooded += level[s] > heights_[s];
+    const auto samples = static_cast<double>(level.size());
+    made.flooded = static_cast<double>(flooded) / samples;
+    if (options_.keptShare <= 0 || flooded == 0) return;
+    std::vector<std::vector<std::uint32_t>> hollows;
+    std::vector<std::uint8_t> seen(level.size());
+    for (std::uint32_t s = 0; s < level.size(); ++s) {
+      if (seen[s] || !(level[s] > heights_[s])) continue;
+      std::vector<std::uint32_t> hollow{s};
+      seen[s] = 1;
+      for (std::size_t at = 0; at < hollow.size(); ++at) {
+        for (int d = 0; d < 8; ++d) {
+          std::uint32_t n;
+          if (!neighbor(hollow[at], d, n) || seen[n] || !(level[n] > heights_[n])) continue;
+          seen[n] = 1;
+          hollow.push_back(n);
+        }
+      }
+      if (hollow.size() <= options_.largestKept) hollows.push_back(std::move(hollow));
+    }
+    std::ranges::stable_sort(hollows,
+                             [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    kept_.assign(level.size(), 0);
+    standing_.assign(level.size(), least_);
+    double left = options_.keptShare * samples;
+    for (const std::vector<std::uint32_t>& hollow : hollows) {
+      if (static_cast<double>(hollow.size()) > left) continue;
+      left -= static_cast<double>(hollow.size());
+      for (const std::uint32_t s : hollow) {
+        kept_[s] = 1;
+        standing_[s] = level[s];
+      }
     }
   }
 
-  bool isHeld(std::size_t s) const { return !held_.empty() && held_[s]; }
+  /// Fills hollows by their share, and those that drain through one that stays up to the water in
+  /// that, which would flood them.
+  void fill() {
+    if (options_.fill <= 0 && kept_.empty()) return;
+    std::vector<float> level(heights_.values().begin(), heights_.values().end());
+    const auto fall = static_cast<float>(options_.fall);
+    flood(
+        [&](std::uint32_t n, std::uint32_t from) {
+          if (!kept_.empty()) standing_[n] = std::max(standing_[n], standing_[from]);
+          return level[n] = std::max(level[n], level[from] + fall);
+        },
+        [](std::uint32_t) {});
+    for (std::size_t s = 0; s < level.size(); ++s) {
+      if (!(level[s] > heights_[s]) || isHeld(s) || isKept(s)) continue;
+      heights_[s] += static_cast<float>(options_.fill) * (level[s] - heights_[s]);
+      if (!kept_.empty()) heights_[s] = std::max(heights_[s], std::min(standing_[s], level[s]));
+    }
+  }
 
   /// Cuts a way from every pit, by own heights: a hollow's pit is reached first over its lowest
   /// saddle, and the way back is the way that the water takes.
@@ -179,9 +231,16 @@ class Outlets {
         {static_cast<float>(options_.fall), (most_ - least_) * 1e-6f, std::abs(most_) * 2.4e-7f});
     const std::vector<float> before(heights_.values().begin(), heights_.values().end());
     std::vector<std::uint32_t> changed;
+    std::vector<std::uint8_t> drained(water_ ? water_->count : 0);
+    const auto wantsOutlet = [&](std::uint32_t s) {
+      if (toward_[s] == kOutlet || isKept(s)) return false;
+      const std::uint32_t body = bodyOf(s);
+      // A lake's first sample is reached over its lowest saddle.
+      return body != 0 ? !std::exchange(drained[body], 1) : isPit(s);
+    };
     flood([&](std::uint32_t n, std::uint32_t) { return heights_[n]; },
           [&](std::uint32_t s) {
-            if (toward_[s] == kOutlet || !isPit(s)) return;
+            if (!wantsOutlet(s)) return;
             float target = heights_[s];
             bool any = false;
             for (std::uint32_t at = s; toward_[at] != kOutlet;) {
@@ -240,18 +299,22 @@ class Outlets {
   Grid<float>& heights_;
   const Grid<std::uint8_t>& held_;
   const OutletOptions& options_;
+  const WaterBodies* water_;
   const Progress& progress_;
   float least_ = std::numeric_limits<float>::infinity();
   float most_ = -std::numeric_limits<float>::infinity();
   std::vector<std::uint8_t> toward_;  // the direction back to the outlet
+  std::vector<std::uint8_t> kept_;    // 1 in hollows that stay; may be empty
+  std::vector<float> standing_;       // how high water stands there, and where it would flood
 };
 
 }  // namespace
 
 OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,
-                      const OutletOptions& options, const Progress& progress) {
+                      const OutletOptions& options, const WaterBodies* water,
+                      const Progress& progress) {
   assert(options.bank > 0);
-  return Outlets(heights, held, options, progress).run();
+  return Outlets(heights, held, options, water, progress).run();
 }
 
 }  // namespace exemplar

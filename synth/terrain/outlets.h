@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/progress.h"
 #include "maps/grid.h"
+#include "synth/terrain/standing_water.h"
 
 /// Outlets for hollows: rivers that have somewhere to go.
 namespace exemplar {
@@ -20,11 +22,16 @@ struct OutletOptions {
   double fall = 0;
   /// Slope of the banks of a cut, height per sample; > 0; infinite: cuts are one sample wide.
   double bank = 1;
+  /// Hollows that may stay: of so many of the samples, the largest first, none of more than
+  /// `largestKept` samples.
+  double keptShare = 0;
+  std::size_t largestKept = 0;
   bool wrapsX = false, wrapsY = false;
 };
 
 /// What was done for them.
 struct OutletsCut {
+  double flooded = 0;        ///< the share of samples below their spill level before
   std::int64_t outlets = 0;  ///< how many were cut
   double mean = 0;           ///< what was taken away, a sample
   double deepest = 0;        ///< the deepest cut
@@ -37,7 +44,11 @@ struct OutletsCut {
 /// doi:10.1002/hyp.10648), up to 1 / 262,144 of the relief. Samples where `held` (may be empty) is
 /// not 0 stay, and so may what lies behind them. NaN samples are outlets. O(samples), one thread,
 /// 10 bytes a sample. Throws `Cancelled`.
+///
+/// Bodies of water (may be null) stay flat: the sea takes all water, and each lake gets one outlet,
+/// which begins at its level.
 OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,
-                      const OutletOptions& options = {}, const Progress& progress = {});
+                      const OutletOptions& options = {}, const WaterBodies* water = nullptr,
+                      const Progress& progress = {});
 
 }  // namespace exemplar

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "synth/terrain/height_pieces.h"
 #include "synth/terrain/height_pyramid.h"
 #include "synth/terrain/outlets.h"
+#include "synth/terrain/standing_water.h"
 
 namespace exemplar {
 namespace {
@@ -37,6 +39,10 @@ constexpr double kMostStrength = 1.5;
 /// How far hollows are filled before an outlet is cut: little while finer resolutions still give
 /// the cut its valley, by half at the end.
 constexpr double kFillBefore = 0.2, kFillAtLast = 0.5;
+/// From which share of the samples in hollows on they are the land's own.
+constexpr double kNaturalHollows = 0.02;
+/// The least lakes of a result, samples.
+constexpr std::size_t kLeastLake = 24;
 /// How much beds of cuts fall beside the larger streams of the example.
 constexpr double kFallShare = 0.5;
 /// Orientations keep a terrain's direction where they change the tensor of its gradients by no more
@@ -99,8 +105,16 @@ class Synthesis {
         larger = std::max(larger, std::sqrt(static_cast<double>(options.width) * options.height /
                                             static_cast<double>(example.count())));
       }
-      fall_ = kFallShare * streamFall(examples, progress) / larger;
+      fall_ = kFallShare * streamFall(examples, progress.part(0, 0.6)) / larger;
+      hollows_.resize(static_cast<std::size_t>(levels_));
+      for (std::size_t l = 0; l < hollows_.size(); ++l) {
+        std::vector<Grid<float>> maps;
+        for (const HeightSource& source : pyramid_[l].sources) maps.push_back(source.heights);
+        hollows_[l] = hollowsOf(maps, l == 0 ? progress.part(0.6, 0.9) : progress.part(0.9, 0.9));
+        if (l == 0 && hollows_[l].share < kNaturalHollows) break;
+      }
     }
+    seaLevel_ = seaLevelOf(pyramid_.front());
     guideLevel_ = options.control.guideLevel < 0
                       ? levels_ - 1
                       : std::min(options.control.guideLevel, levels_ - 1);
@@ -217,7 +231,11 @@ class Synthesis {
       heights = field.vote(level.sources, heights, progress);
       steer(l, heights);
       // On the finest resolution, once at the end.
-      if (l > 0) cut(l, heights, kFillBefore, made, progress);
+      if (l > 0) {
+        const WaterBodies water =
+            hasWater(level) ? settled(l, heights, field.origins(progress)) : WaterBodies{};
+        cut(l, heights, kFillBefore, water, made, progress);
+      }
     }
     origins = field.origins(progress);
     heights = field.vote(level.sources, heights, progress);
@@ -230,7 +248,24 @@ class Synthesis {
     if (!coarsest) strengthen(level, heights);
     steer(l, heights);
     progress.report("letting water run", 0.9);
-    cut(l, heights, l > 0 ? kFillBefore : kFillAtLast, made, progress);
+    const WaterBodies water = hasWater(level) ? settled(l, heights, origins) : WaterBodies{};
+    cut(l, heights, l > 0 ? kFillBefore : kFillAtLast, water, made, progress);
+  }
+
+  static bool hasWater(const HeightLevel& level) { return !level.water.empty(); }
+
+  static std::optional<float> seaLevelOf(const HeightLevel& finest) {
+    for (std::size_t e = 0; e < finest.water.size(); ++e) {
+      for (std::size_t s = 0; s < finest.water[e].count(); ++s)
+        if (finest.water[e][s] == kSea) return finest.sources[e].heights[s];
+    }
+    return std::nullopt;
+  }
+
+  WaterBodies settled(int l, Grid<float>& heights, const Grid<HeightOrigin>& origins) const {
+    return settleWater(heights, origins, pyramid_[static_cast<std::size_t>(l)].water, seaLevel_,
+                       controls_[static_cast<std::size_t>(l)].held,
+                       std::max<std::size_t>(4, kLeastLake >> (2 * l)));
   }
 
   void match(HeightField& field, const HeightLevel& level, int l, int round,
@@ -412,16 +447,28 @@ class Synthesis {
     return steps;
   }
 
-  void cut(int l, Grid<float>& heights, double fill, SynthesizedTerrain& made,
-           const Progress& progress) const {
+  void cut(int l, Grid<float>& heights, double fill, const WaterBodies& water,
+           SynthesizedTerrain& made, const Progress& progress) const {
     if (options_.keepsHollows) return;
+    // Few and small ones are faults of a survey, more of them are what the land is like.
+    const Hollows& hollows = hollows_[static_cast<std::size_t>(l)];
+    const bool keeps = hollows_[0].share >= kNaturalHollows;
     const OutletsCut cut = cutOutlets(heights, controls_[static_cast<std::size_t>(l)].held,
                                       {.fill = fill,
                                        .fall = std::ldexp(fall_, l) * l / std::max(1, levels_ - 1),
                                        .bank = pyramid_[static_cast<std::size_t>(l)].bank,
+                                       .keptShare = keeps ? hollows.share : 0,
+                                       .largestKept = hollows.largest,
                                        .wrapsX = options_.wrapsX,
                                        .wrapsY = options_.wrapsY},
-                                      progress);
+                                      water.bodies.empty() ? nullptr : &water, progress);
+    if (seaLevel_ && !water.bodies.empty()) {
+      // Beds that end at the sea end at its level.
+      const Grid<std::uint8_t>& held = controls_[static_cast<std::size_t>(l)].held;
+      for (std::size_t s = 0; s < heights.count(); ++s)
+        if (held.empty() || !held[s]) heights[s] = std::max(heights[s], *seaLevel_);
+    }
+    made.flooded = cut.flooded;
     made.outlets = cut.outlets;
     made.meanCut = cut.mean;
     made.deepestCut = cut.deepest;
@@ -431,6 +478,8 @@ class Synthesis {
   int levels_;
   int guideLevel_ = 0;
   double fall_ = 0;
+  std::vector<Hollows> hollows_;  // of the examples on each resolution, the finest first
+  std::optional<float> seaLevel_;
   std::vector<int> turns_;
   std::vector<HeightLevel> pyramid_;    // finest first
   std::vector<LevelControl> controls_;  // the same

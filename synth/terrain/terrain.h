@@ -53,7 +53,9 @@ struct TerrainSynthesisOptions {
   /// About the width of the pieces that are taken from one place, samples of each resolution:
   /// larger ones are more like the examples, and recognized; 8..24.
   int piece = 12;
-  bool keepsHollows = false;  ///< cut no outlets
+  /// Cut no outlets. Otherwise a result has as many hollows as its examples, none where fewer than
+  /// 2 % of their samples lie in some.
+  bool keepsHollows = false;
   TerrainControl control;
 };
 
@@ -62,6 +64,7 @@ struct SynthesizedTerrain {
   Grid<HeightOrigin> origins;  ///< where each sample's shape came from
   int levels = 0;
   std::vector<int> turns;
+  double flooded = 0;        ///< the share below its spill level before the last outlets
   std::int64_t outlets = 0;  ///< that were cut at the finest resolution
   double meanCut = 0;        ///< what was taken away for them, a sample
   double deepestCut = 0;

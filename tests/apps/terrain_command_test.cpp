@@ -122,6 +122,46 @@ TEST_F(TerrainCommand, FollowsPaintedHeightsAndLines) {
   EXPECT_GT((ridge - valley) / kCount, 30);
 }
 
+TEST_F(TerrainCommand, FillsHolesOrKeepsThem) {
+  HeightMap holed = hills(96, 96, 10);
+  holed.corner = MapCorner{10, 20};
+  for (int y = 40; y < 64; ++y)
+    for (int x = 30; x < 58; ++x) holed.heights(x, y) = std::nanf("");
+  writeHeightMap(folder_ / "h.asc", holed);
+  const auto of = [&](const std::string& arguments) {
+    const auto run = runExemplar("synth h.asc " + arguments + " -o o.asc", folder_.path());
+    EXPECT_EQ(run.status, 0) << run.err;
+    return readHeightMap(folder_ / "o.asc");
+  };
+  const HeightMap filled = of("--fill");
+  ASSERT_EQ(filled.width(), 96);
+  EXPECT_EQ(filled.corner, holed.corner);
+  for (int y = 0; y < 96; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      ASSERT_FALSE(std::isnan(filled.at(x, y)));
+      if (!std::isnan(holed.at(x, y))) {
+        ASSERT_EQ(filled.at(x, y), holed.at(x, y));
+      }
+    }
+  }
+  // No step at the hole's border beyond those of the land.
+  double across = 0, usual = 0;
+  for (int y = 40; y < 64; ++y) {
+    across += std::abs(filled.at(30, y) - filled.at(29, y));
+    usual += std::abs(filled.at(29, y) - filled.at(28, y));
+  }
+  EXPECT_LT(across, 2.5 * usual);
+  const auto holes = [](const HeightMap& map) {
+    std::size_t count = 0;
+    for (const float h : map.heights.values()) count += std::isnan(h);
+    return static_cast<double>(count) / static_cast<double>(map.heights.count());
+  };
+  EXPECT_EQ(holes(of("--seed 1")), 0);
+  const double kept = holes(of("--keep-holes --seed 1"));
+  EXPECT_GT(kept, 0.2 * holes(holed));
+  EXPECT_LT(kept, 5 * holes(holed));
+}
+
 TEST_F(TerrainCommand, RefusesWhatCannotBeInOneLine) {
   writeFile(folder_ / "bad.csv", "ridge 1,2 3,4\nriver 1,2\n");
   writeFile(folder_ / "odd.csv", "ridge 1,2,3,4\n");
@@ -141,6 +181,10 @@ TEST_F(TerrainCommand, RefusesWhatCannotBeInOneLine) {
            {"--mask black.png --size 70,70,1", "has the size of the result, 70 x 70"},
            {"--orientations 3", "--orientations 3: expected 1, 2, 4 or 8"},
            {"--size 10,40,1", "the result would have 10"},
+           {"--fill", "has data everywhere"},
+           {"--fill --scale 2,2,1", "at its own size"},
+           {"--fill --keep black.png", "have no meaning beside it"},
+           {"--piece-size 4", "8"},
            {"--periodic z", "height maps tile along x and y"}}) {
     const auto run = runExemplar("synth e.asc " + arguments + " -o o.tif", folder_.path());
     EXPECT_EQ(run.status, 2) << arguments;

@@ -126,7 +126,7 @@ TEST(CutOutlets, HolesAreOutletsAndStop) {
   EXPECT_TRUE(std::isnan(heights(15, 15)));
   std::atomic<bool> cancel = true;
   Grid<float> large = noise(300, 300, 3);
-  EXPECT_THROW(cutOutlets(large, {}, {}, Progress({}, &cancel)), Cancelled);
+  EXPECT_THROW(cutOutlets(large, {}, {}, nullptr, Progress({}, &cancel)), Cancelled);
 }
 
 }  // namespace

@@ -1,0 +1,129 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/terrain/standing_water.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "maps/drainage.h"
+#include "synth/terrain/outlets.h"
+#include "synth/terrain/terrain.h"
+#include "tests/synth/terrain/height_samples.h"
+
+namespace exemplar {
+namespace {
+
+using testing::ridges;
+
+std::size_t countOf(const Grid<std::uint8_t>& water, std::uint8_t kind) {
+  return static_cast<std::size_t>(std::ranges::count(water.values(), kind));
+}
+
+/// Mountains under which all is flooded up to a level.
+Grid<float> flooded(int width, int height, std::uint64_t seed, float level) {
+  Grid<float> heights = ridges(width, height, seed);
+  for (float& h : heights.values()) h = std::max(h, level);
+  return heights;
+}
+
+TEST(FlatWater, IsALakeOrTheSeaButNoTerraceAndNoPlain) {
+  Grid<float> heights(60, 50);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      heights(x, y) = static_cast<float>(100 + std::hypot(x - 40, y - 25));
+      if (x < 12) heights(x, y) = 3;                            // the sea
+      if (std::hypot(x - 40, y - 25) < 6) heights(x, y) = 104;  // a lake
+      if (x >= 12 && x < 22 && y < 10) heights(x, y) = 50;      // higher than the sea beside it
+    }
+  }
+  const Grid<std::uint8_t> water = flatWater(heights);
+  EXPECT_EQ(water(3, 20), kSea);
+  EXPECT_EQ(countOf(water, kSea), 12u * 50);
+  EXPECT_EQ(water(40, 25), kLake);
+  EXPECT_EQ(countOf(water, kLake),
+            static_cast<std::size_t>(std::ranges::count(heights.values(), 104.0f)));
+  EXPECT_EQ(water(16, 4), kLand);
+  EXPECT_EQ(countOf(flatWater(Grid<float>(40, 40, 5)), kLand), 1600u);
+  const Grid<std::uint8_t> half = halvedWater(water);
+  EXPECT_EQ(half(2, 20), kSea);
+  EXPECT_EQ(half(20, 12), kLake);
+  EXPECT_EQ(half(14, 20), kLand);
+}
+
+TEST(CutOutlets, GivesALakeAnOutletAndLeavesItFlat) {
+  // A lake in a bowl, with water that runs into it.
+  Grid<float> heights(41, 41);
+  WaterBodies water{Grid<std::uint32_t>(41, 41)};
+  for (int y = 0; y < 41; ++y) {
+    for (int x = 0; x < 41; ++x) {
+      const double r = std::hypot(x - 20, y - 20);
+      heights(x, y) = static_cast<float>(r < 6 ? 6 : r < 15 ? r : 30 - r);
+      if (r < 6) water.bodies(x, y) = kFirstLake;
+    }
+  }
+  water.count = kFirstLake + 1;
+  cutOutlets(heights, {}, {.fill = 0}, &water);
+  for (std::size_t s = 0; s < heights.count(); ++s) {
+    if (water.bodies[s] == kFirstLake) {
+      ASSERT_EQ(heights[s], 6.0f);
+    }
+  }
+  const Drainage drainage = drain(heights);
+  for (std::size_t s = 0; s < heights.count(); ++s) EXPECT_EQ(drainage.levels[s], heights[s]);
+  // The sea takes all water: nothing is cut.
+  Grid<float> island = heights;
+  for (int y = 0; y < 41; ++y) island(0, y) = island(40, y) = 99;
+  for (int x = 0; x < 41; ++x) island(x, 0) = island(x, 40) = 99;
+  for (std::uint32_t& body : water.bodies.values()) body = body == kFirstLake ? kSeaBody : 0;
+  for (int y = 1; y < 40; ++y) {
+    for (int x = 1; x < 40; ++x) {
+      const double r = std::hypot(x - 20, y - 20);
+      island(x, y) = static_cast<float>(std::max(6.0, r));
+    }
+  }
+  EXPECT_EQ(cutOutlets(island, {}, {.fill = 0}, &water).outlets, 0);
+}
+
+TEST(CutOutlets, KeepsHollowsUpToAShareAndASize) {
+  const Grid<float> rough = ridges(120, 100, 3);
+  const Hollows all = hollowsOf({&rough, 1});
+  ASSERT_GT(all.share, 0.05);
+  Grid<float> heights = rough;
+  const OutletsCut cut =
+      cutOutlets(heights, {}, {.keptShare = all.share / 2, .largestKept = all.largest / 2});
+  EXPECT_NEAR(cut.flooded, all.share, 1e-9);
+  const Hollows kept = hollowsOf({&heights, 1});
+  EXPECT_LE(kept.share, all.share / 2);
+  EXPECT_GT(kept.share, all.share / 10);
+  // Two that stay side by side may become one.
+  EXPECT_LE(kept.largest, all.largest);
+}
+
+TEST(Terrain, HasTheExamplesSeaAndLakes) {
+  const Grid<float> example = flooded(128, 128, 5, 620);
+  const Grid<std::uint8_t> water = flatWater(example);
+  const double wanted =
+      1 - static_cast<double>(countOf(water, kLand)) / static_cast<double>(water.count());
+  ASSERT_GT(wanted, 0.1);
+  const Grid<float> heights =
+      synthesizeTerrain({&example, 1}, {.width = 200, .height = 200, .seed = 2}).heights;
+  const Grid<std::uint8_t> made = flatWater(heights);
+  const double share =
+      1 - static_cast<double>(countOf(made, kLand)) / static_cast<double>(made.count());
+  EXPECT_GT(share, 0.5 * wanted);
+  EXPECT_LT(share, 2 * wanted);
+  // The sea has its level, and nothing lies lower.
+  for (std::size_t s = 0; s < heights.count(); ++s) {
+    ASSERT_GE(heights[s], 620.0f);
+    if (made[s] == kSea) {
+      ASSERT_EQ(heights[s], 620.0f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace exemplar
