@@ -50,5 +50,7 @@ install(FILES ${PROJECT_BINARY_DIR}/exemplarConfig.cmake
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/
         DESTINATION ${CMAKE_INSTALL_DATADIR}/exemplar/scenes COMPONENT command
         FILES_MATCHING PATTERN "*.toml")
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/world-dask.py
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/exemplar COMPONENT command)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/docs/measures.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
