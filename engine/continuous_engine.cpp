@@ -4,11 +4,15 @@
 // Continuous model synthesis: from solids to solids.
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
+#include "core/cells.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "engine/engines.h"
 #include "engine/words.h"
+#include "mesh/image.h"
 #include "synth/continuous/synthesize.h"
 
 namespace exemplar {
@@ -61,6 +65,25 @@ const SettingTable<ContinuousSettings>& continuousSettings() {
           "solids that hang in the air over the ground: keep them, remove them, or remove them "
           "where the example has none",
           {{"auto", Floating::Auto}, {"keep", Floating::Keep}, {"remove", Floating::Remove}}),
+      settingRow<O>("object-size", [](O & o) -> auto& { return o.options.objectSize; },
+                    "how large solids are, in sizes of the example's: more within them, or more "
+                    "corners",
+                    {0.1, 10}),
+      settingRow<O>(
+          "groups", [](O & o) -> auto& { return o.options.groups; },
+          "at most how many connected groups the solids form, grown from as many seeds; 0: any",
+          {0, 10000}),
+      settingRow<O>(
+          "mirror", [](O & o) -> auto& { return o.options.mirror; },
+          "make the result its own mirror image across x, y or both (xy)"),
+      settingRow<O>(
+          "open-sides", [](O & o) -> auto& { return o.options.open; },
+          "axes along which the result is cut out of something longer, without ends of its own"),
+      settingRow<O>(
+          "jitter", [](O & o) -> auto& { return o.options.jitter; },
+          "how far faces are moved out of their rows, in half distances of planes; only for faces "
+          "of three directions",
+          {0, 1}),
       {{.key = "thin",
         .type = SettingType::Text,
         .meaning = "MATERIAL=AXIS: a material that is one spacing thick along x, y or z, or across "
@@ -92,10 +115,44 @@ std::string pinText(const Pin& pin) {
          numberText(pin.cell.z) + "=" + pin.labels;
 }
 
+/// How full a result is, seen from above (the brightness of a picture), or by cells (labels: 0 is
+/// empty).
+DensityMap readDensityMap(const Source& source, const Progress& progress) {
+  DensityMap map;
+  const std::string what = "`guide` " + source.name();
+  const std::string ending = lowerExtension(source.path());
+  if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
+    const Image8 image = decodeImage(readBytes(source), source.name());
+    map.size = {image.width, image.height, 1};
+    for (int y = image.height - 1; y >= 0; --y) {
+      for (int x = 0; x < image.width; ++x) {
+        const std::uint8_t* p = image.at(x, y);
+        const float gray = image.channels < 3 ? static_cast<float>(p[0])
+                                              : 0.2126f * static_cast<float>(p[0]) +
+                                                    0.7152f * static_cast<float>(p[1]) +
+                                                    0.0722f * static_cast<float>(p[2]);
+        map.values.push_back(gray / 255);
+      }
+    }
+    return map;
+  }
+  if (sourceKind(source) != SourceKind::Labels)
+    throw InputError(what + ": use a .png or .jpg seen from above, or cells (.vox, .txt)");
+  const LabelGrid grid = readLabelGrid(source, progress);
+  map.size = grid.size();
+  forEachCell(CellBox::of(map.size),
+              [&](const Vec3i& cell) { map.values.push_back(grid.cells[cell] == 0 ? 0.f : 0.8f); });
+  return map;
+}
+
 ContinuousOptions optionsOf(const Request& request, ContinuousSettings settings,
                             const Solids& solids, const Vec3i& size) {
   ContinuousOptions options = settings.options;
   options.size = size;
+  if (request.guide) options.map = readDensityMap(*request.guide, {});
+  if (options.mirror.z) throw InputError("`mirror`: only x and y can be mirrored");
+  if (options.open.z && (solids.ground || solids.flat))
+    throw InputError("`open-sides` z: an example with a ground, or of the plane, ends there");
   options.seed = request.seed;
   options.blocksOnly = settings.method == Method::Blocks;
   options.blocks = settings.method != Method::Whole;
@@ -136,7 +193,8 @@ Statistics statisticsOf(const ContinuousStatistics& s, const Vec3i& size) {
                  {"blocks", s.blocks},
                  {"blocks_kept", s.blocksKept},
                  {"exact_solver_calls", s.exact},
-                 {"floating_removed", s.floating}};
+                 {"floating_removed", s.floating},
+                 {"groups", s.groups}};
   for (int c = 0; c < kFigureClasses; ++c) {
     const std::string name = figureClassName(static_cast<FigureClass>(c));
     all.emplace_back("example_share_" + name, s.exampleShares[c]);
@@ -159,12 +217,18 @@ class ContinuousEngine final : public Engine {
     ContinuousSettings settings;
     continuousSettings().apply(request.settings, settings);
     const PlaneLattice lattice = latticeOf(example.solids->solids, spacingOf(example, settings));
-    return resultSize(request, sizeInSpacings(lattice, example.solids->solids), example.hints.scale,
-                      "spacings");
+    Vec3i size = resultSize(request, sizeInSpacings(lattice, example.solids->solids),
+                            example.hints.scale, "spacings");
+    if (example.solids->solids.flat) {
+      if (request.extent.size && size.z != 1)
+        throw InputError("`size`: shapes of the plane are one spacing high; use X,Y,1");
+      size.z = 1;
+    }
+    return size;
   }
   std::span<const Setting> settings() const override { return continuousSettings().settings(); }
   std::span<const std::string_view> honors() const override {
-    static constexpr std::string_view keys[] = {"pin"};
+    static constexpr std::string_view keys[] = {"pin", "guide"};
     return keys;
   }
 
@@ -197,13 +261,35 @@ class ContinuousEngine final : public Engine {
         "figures", withThousands(static_cast<long long>(s.figures)) + " of " +
                        withThousands(static_cast<long long>(s.directions)) + " directions, " +
                        withThousands(static_cast<long long>(s.freeVertices)) + " free vertices");
-    if (s.shares[static_cast<int>(FigureClass::Empty)] == 1)
+    if (s.shares[static_cast<int>(FigureClass::Empty)] == 1) {
       result.warnings.push_back("the result is empty; try another `seed`, or a larger `density`");
+    } else if (const double full = fullness(s, options.density); full < kNearlyEmpty) {
+      char share[16];
+      std::snprintf(share, sizeof share, "%.0f %%", 100 * full);
+      result.warnings.push_back(
+          "the result is nearly empty: " + std::string(share) + " as full as asked for" +
+          (s.exact > 0 ? "; the `budget` was spent and the exact solver finished it, which leaves "
+                         "out what it can; use `method` auto, or a larger `budget`"
+                       : "; try another `seed`, or a larger `density`"));
+    }
+    if (s.groups > options.groups && options.groups > 0) {
+      result.warnings.push_back("the solids form " + std::to_string(s.groups) +
+                                " groups, more than `groups` " + std::to_string(options.groups) +
+                                ": what is decided, or a relief around them, keeps some");
+    }
     result.data = std::move(made.model);
     return result;
   }
 
  private:
+  /// A result less full than this share of what was asked for is nearly empty.
+  static constexpr double kNearlyEmpty = 0.25;
+  /// How full a result is, in shares of what was asked for.
+  static double fullness(const ContinuousStatistics& s, double density) {
+    const int empty = static_cast<int>(FigureClass::Empty);
+    const double wanted = std::min(1.0, (1 - s.exampleShares[empty]) * density);
+    return wanted > 0 ? (1 - s.shares[empty]) / wanted : 1;
+  }
   static std::optional<std::int64_t> spacingOf(const Example& example,
                                                const ContinuousSettings& settings) {
     return settings.options.spacing ? settings.options.spacing : example.solids->spacing;

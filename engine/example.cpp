@@ -11,6 +11,7 @@
 #include "engine/example_forms.h"
 #include "engine/words.h"
 #include "mesh/image.h"
+#include "mesh/svg_file.h"
 
 namespace exemplar {
 namespace {
@@ -90,8 +91,9 @@ void warnOfUnused(Example& example) {
   use("piece", o.image.piece != usual.image.piece, picture);
   use("overlap", o.image.overlap, picture);
   use("symmetry", o.image.symmetry != usual.image.symmetry, picture);
-  use("unit", o.unit.has_value(), polygons && kind == SourceKind::Mesh);
-  use("snap", o.snap != usual.snap, polygons && kind == SourceKind::Mesh);
+  use("unit", o.unit.has_value(),
+      polygons && (kind == SourceKind::Mesh || isDrawingFile(example.source.path())));
+  use("snap", o.snap.has_value(), polygons && kind == SourceKind::Mesh);
   use("ground", o.ground.has_value(), polygons && kind == SourceKind::Mesh);
   use("seen-only", o.image.seen, picture && o.image.overlap);
   use("example-periodic", o.image.periodic.any(),
@@ -145,8 +147,12 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
                     "side of the grid to which a mesh's vertices are snapped, so that its planes "
                     "are exact",
                     kAboveZero, "world units", "found from the distances between parallel faces"),
-      settingRow<O>("snap", &O::snap, "how far a vertex of a mesh may move when it is snapped",
-                    {0, 0.1}, "lengths of the longest side"),
+      settingRow<O>("snap", &O::snap,
+                    "how far the surface of a mesh may move when it is snapped; where that is not "
+                    "closed or fits no grid, it is read as the union of its parts, without faces "
+                    "narrower than this",
+                    {1e-6, 0.2}, "lengths of the longest side",
+                    "0.001; for unions as much as needed, up to 0.07"),
       settingRow<O>("ground", &O::ground,
                     "height below which a mesh has ground that goes on for ever", {}, "world units",
                     "none"),

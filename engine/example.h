@@ -114,7 +114,9 @@ struct ReadOptions {
 
   // Polygons only:
   std::optional<double> unit;  ///< of a mesh's grid, world units, > 0; found
-  double snap = 1e-3;          ///< how far a mesh's vertices may move, lengths of its longest side
+  /// How far a mesh's surface may move, lengths of its longest side; 0.001 where it can be read
+  /// exactly, else what is needed up to 0.07.
+  std::optional<double> snap;
   std::optional<double> ground;  ///< world height below which all is ground; none
 
   // Maps only:

@@ -10,12 +10,15 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "engine/words.h"
 #include "mesh/face_outlines.h"
 #include "mesh/gif.h"
 #include "mesh/image.h"
+#include "mesh/svg_file.h"
 #include "sdf/height_map.h"
 #include "sdf/vdb_file.h"
+#include "synth/continuous/flat.h"
 #include "voxelize/label_file.h"
 
 namespace exemplar {
@@ -116,6 +119,13 @@ Written writeField(const fs::path& path, const Result& result, const Example& ex
   return written;
 }
 
+/// The shapes of a flat result.
+Written writeDrawing(const fs::path& path, const continuous::PolygonModel& model) {
+  const Drawing drawing = continuous::drawingOf(model);
+  writeFile(path, drawingText(drawing));
+  return {path, "drawing", path.string() + ": " + counted(drawing.shapes.size(), "shape"), {}};
+}
+
 /// Heights in the units and steps of their example.
 Written writeHeights(const fs::path& path, const Result& result, const Example& example,
                      const Progress& progress) {
@@ -155,6 +165,8 @@ const char* outputEndings(Form form) {
       return ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf .gif";
     case Form::Map:
       return ".png";
+    case Form::Polygons:
+      return ".obj .ply .stl .off .glb .gltf .svg";
     case Form::Heights:
       return ".asc .tif .tiff .exr .png .pgm .r16 .obj .ply .stl .off .glb .gltf";
     default:
@@ -221,6 +233,10 @@ void requireOutputFits(const fs::path& path, Form form, const Vec3i& size) {
     throw InputError(path.string() + ": a picture has one layer, and the result " +
                      std::to_string(size.z) + "; write a .txt, .vox, .vdb or a mesh");
   }
+  if (form == Form::Polygons && isDrawingFile(path) && size.z != 1) {
+    throw InputError(path.string() + ": a drawing is flat, and the result " +
+                     std::to_string(size.z) + " spacings high; write a mesh");
+  }
 }
 
 bool needsSurface(const fs::path& path, const Result& result, const OutputOptions& options) {
@@ -240,6 +256,7 @@ Written writeResult(const fs::path& path, const Result& result, std::span<const 
   if (result.form() == Form::Map) return writeMap(path, result.map(), options);
   if (result.form() == Form::Heights) return writeHeights(path, result, example, progress);
   if (result.form() == Form::Field) return writeField(path, result, example, progress);
+  if (result.form() == Form::Polygons) return writeDrawing(path, result.polygons());
   if (!result.laterFrames.empty()) return writeFrames(path, result, example, options, progress);
   OutputOptions written = options;
   written.periodic = result.periodic;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -13,7 +14,10 @@
 #include "core/text.h"
 #include "engine/example_forms.h"
 #include "engine/words.h"
+#include "mesh/scene.h"
+#include "synth/continuous/fit.h"
 #include "synth/continuous/snap.h"
+#include "synth/continuous/stand_ins.h"
 #include "synth/continuous/synthesize.h"
 
 namespace exemplar {
@@ -21,25 +25,65 @@ namespace {
 
 using continuous::Solids;
 
+/// A closed mesh that fits a grid exactly, or the union of its parts, fitted; says which.
+Solids solidsOf(const TriangleMesh& mesh, Example& example, const Progress& progress) {
+  const ReadOptions& reading = example.reading;
+  Warnings warnings;
+  const auto describe = [&](std::size_t solids, double moved, double unit) {
+    char grid[96];
+    std::snprintf(grid, sizeof grid, ", moved by at most %.3g to a grid of %.6g", moved, unit);
+    example.description = "mesh of " + counted(solids, "solid") + grid;
+    for (const std::string& warning : warnings)
+      example.warnings.push_back(example.name() + ": " + warning);
+  };
+  std::string reason;
+  try {
+    continuous::SnapReport report;
+    Solids solids = continuous::snapMesh(mesh,
+                                         {.unit = reading.unit,
+                                          .tolerance = reading.snap.value_or(1e-3),
+                                          .ground = reading.ground,
+                                          .warnings = &warnings},
+                                         &report, progress.part(0, 0.3));
+    describe(static_cast<std::size_t>(report.shells), report.moved, solids.unit);
+    return solids;
+  } catch (const InputError& error) {
+    reason = error.what();
+  }
+  warnings.clear();
+  continuous::FitReport report;
+  Solids solids = continuous::fitParts(
+      mesh, {.unit = reading.unit, .tolerance = reading.snap, .ground = reading.ground}, &report,
+      progress.part(0.3, 1));
+  // Why it cannot be read exactly, without the advice.
+  std::string text = reason.substr(0, reason.find(';')) + ": read as the union of " +
+                     counted(report.parts, "part");
+  if (report.openings > 0) text += ", " + counted(report.openings, "opening") + " closed";
+  if (report.sheets > 0) text += ", " + counted(report.sheets, "open sheet") + " left out";
+  if (report.dropped > 0) text += ", " + counted(report.dropped, "narrow face") + " left out";
+  const Vec3d size = boundingBox(mesh).size();
+  char moved[160];
+  std::snprintf(
+      moved, sizeof moved,
+      "; its surface was moved by at most %.3g (%.2g %% of the longest side) to a grid of "
+      "%.4g; a smaller `snap` keeps more",
+      report.moved, 100 * report.moved / std::max({size.x, size.y, size.z}), solids.unit);
+  warnings.push_back(text + moved);
+  describe(report.parts, report.moved, solids.unit);
+  return solids;
+}
+
 /// A mesh, snapped: its materials are the looks of its solids.
 void takeMesh(Example& example, const Progress& progress) {
   MeshFileOptions file = example.reading.mesh;
   file.warnings = &example.warnings;
   TriangleMesh mesh = readTriangles(example.source, file, progress.part(0, 0.3));
-  Warnings warnings;
-  const continuous::SnapOptions options{.unit = example.reading.unit,
-                                        .tolerance = example.reading.snap,
-                                        .ground = example.reading.ground,
-                                        .warnings = &warnings};
-  continuous::SnapReport report;
   continuous::SolidScene scene;
   try {
-    scene.solids = continuous::snapMesh(mesh, options, &report, progress.part(0.3, 0.7));
+    scene.solids = solidsOf(mesh, example, progress.part(0.3, 1));
   } catch (const InputError& error) {
     throw InputError(example.name() + ": " + error.what());
   }
-  for (const std::string& warning : warnings)
-    example.warnings.push_back(example.name() + ": " + warning);
   scene.name = example.name();
   for (const std::string& name : scene.solids.substances) {
     Material look;
@@ -50,9 +94,6 @@ void takeMesh(Example& example, const Progress& progress) {
     if (name == "ground" && example.reading.ground) look.baseColor = {0.25f, 0.32f, 0.16f, 1};
     scene.looks.push_back(std::move(look));
   }
-  example.description = "mesh of " + counted(static_cast<std::size_t>(report.shells), "solid") +
-                        ", moved by at most " + numberText(report.moved) + " to a grid of " +
-                        numberText(scene.solids.unit);
   example.mesh = std::move(mesh);
   example.solids = std::move(scene);
 }
@@ -63,21 +104,32 @@ void readAsPolygons(Example& example, const Progress& progress) {
   if (example.kind == SourceKind::Mesh) {
     takeMesh(example, progress.part(0, 0.7));
   } else if (example.kind == SourceKind::Solids) {
-    example.solids = readSolids(example.source);
-    example.description = "scene of solids";
+    example.solids = readSolids(example.source, example.reading.unit, &example.warnings);
+    example.description = example.solids->solids.flat ? "shapes of the plane" : "scene of solids";
   } else {
     throw InputError(example.name() +
                      ": the engine continuous takes closed meshes and scenes of solids; try the "
                      "engine geometry");
   }
-  const continuous::SolidScene& scene = *example.solids;
+  continuous::SolidScene& scene = *example.solids;
+  for (continuous::StandIn& object : scene.standIns) {
+    MeshFileOptions file;
+    file.warnings = &example.warnings;
+    object.mesh = readMesh(findScene(example.name()).parent_path() / object.file, file, progress);
+  }
   continuous::PolygonModel model;
   try {
     model = continuous::polygonsOf(scene.solids, scene.looks, progress.part(0.7, 1));
   } catch (const InputError& error) {
     throw InputError(example.name() + ": " + error.what());
   }
-  if (!example.mesh) example.mesh = continuous::triangulate(model);
+  if (!example.mesh) {
+    continuous::PolygonModel shown = model;
+    const auto placed = continuous::takeStandIns(shown, scene.standIns);
+    example.mesh = continuous::triangulate(shown);
+    for (const continuous::PlacedStandIn& box : placed)
+      append(*example.mesh, continuous::stretched(*scene.standIns[box.standIn].mesh, box.box));
+  }
   example.hints.scale = scene.scale;
   example.description +=
       ", " + withThousands(static_cast<long long>(model.polygons.size())) + " faces of " +
@@ -97,17 +149,14 @@ void paintFaces(const continuous::PolygonModel& model, const Example& example,
     std::map<std::uint32_t, std::pair<double, std::uint32_t>> largest;
   };
   std::map<std::tuple<int, std::int64_t, std::int64_t, std::int64_t>, Looks> origins;
-  for (const continuous::Solid& solid : example.solids->solids.solids) {
-    for (const continuous::ShellTriangle& triangle : solid.triangles) {
-      const continuous::Vec3l& n = solid.sides[triangle.plane].normal;
-      Looks& origin = origins[{solid.substance, n.x, n.y, n.z}];
-      const std::uint32_t t = triangle.origin;
-      const std::uint32_t material = from.hasMaterials() ? from.triangleMaterials[t] : 0;
-      const double area = length(areaNormal(from, t));
-      origin.areas[material] += area;
-      auto& largest = origin.largest[material];
-      if (area > largest.first) largest = {area, t};
-    }
+  for (const continuous::FaceOrigin& face : example.solids->solids.origins) {
+    Looks& origin = origins[{face.substance, face.normal.x, face.normal.y, face.normal.z}];
+    const std::uint32_t t = face.triangle;
+    const std::uint32_t material = from.hasMaterials() ? from.triangleMaterials[t] : 0;
+    const double area = length(areaNormal(from, t));
+    origin.areas[material] += area;
+    auto& largest = origin.largest[material];
+    if (area > largest.first) largest = {area, t};
   }
   std::vector<Material> materials = from.materials;
   const auto own = static_cast<std::uint32_t>(materials.size());

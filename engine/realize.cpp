@@ -15,6 +15,7 @@
 #include "reconstruct/field_to_mesh.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/transfer.h"
+#include "synth/continuous/stand_ins.h"
 #include "voxelize/label_file.h"
 #include "voxelize/label_mesh.h"
 
@@ -157,12 +158,22 @@ Surface realize(const Result& result, std::span<const Example> examples,
     return surface;
   }
   if (result.form() == Form::Polygons) {
+    continuous::PolygonModel model = result.polygons();
+    const std::vector<continuous::StandIn>& standIns = examples.front().solids->standIns;
+    const std::vector<continuous::PlacedStandIn> placed = continuous::takeStandIns(model, standIns);
     surface.mesh = continuous::triangulate(
-        result.polygons(), options.shells ? continuous::Faces::Shells : continuous::Faces::Seen,
-        &surface.faces, progress.part(0, 0.8));
+        model, options.shells ? continuous::Faces::Shells : continuous::Faces::Seen, &surface.faces,
+        progress.part(0, 0.8));
+    if (!options.shells) paintFaces(model, examples.front(), surface.faces, surface.mesh);
+    for (const continuous::PlacedStandIn& box : placed) {
+      if (const auto& mesh = standIns[box.standIn].mesh)
+        append(surface.mesh, continuous::stretched(*mesh, box.box));
+    }
+    // The triangles of what was put back are faces of their own.
+    for (auto face = static_cast<std::uint32_t>(model.polygons.size());
+         surface.faces.size() < surface.mesh.triangles.size(); ++face)
+      surface.faces.push_back(face);
     if (surface.mesh.triangles.empty()) throw InputError("the result is empty");
-    if (!options.shells)
-      paintFaces(result.polygons(), examples.front(), surface.faces, surface.mesh);
     surface.health = meshHealth(surface.mesh, progress.part(0.8, 1));
   } else if (result.form() == Form::Labels) {
     surface.mesh = realizeLabels(result.labels(), examples.front(), progress.part(0, 0.8));

@@ -45,7 +45,9 @@ std::span<const Setting> requestSettings() {
                         .type = SettingType::File,
                         .meaning = "a volume, mesh or height map, stretched to the result's box, "
                                    "that says coarsely where solid should be; of terrain rough "
-                                   "heights, or lines of ridges and valleys (.csv)"});
+                                   "heights, or lines of ridges and valleys (.csv); of solids a "
+                                   "picture seen from above, or cells (.vox, .txt): nothing is "
+                                   "where it is black or empty, most where it is white"});
     settings.push_back({.key = "on",
                         .type = SettingType::File,
                         .meaning = "a surface (mesh) that the example, which lies flat, is laid "

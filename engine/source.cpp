@@ -12,7 +12,9 @@
 #include "core/text.h"
 #include "mesh/mesh_file.h"
 #include "mesh/scene.h"
+#include "mesh/svg_file.h"
 #include "sdf/vdb_file.h"
+#include "synth/continuous/flat.h"
 #include "synth/continuous/synthesize.h"
 #include "voxelize/label_file.h"
 
@@ -79,6 +81,7 @@ SourceKind sourceKind(const Source& source) {
   if (isHeightMapFile(path)) return SourceKind::HeightMap;
   if (isLabelFile(path)) return SourceKind::Labels;
   if (ending == ".jpg" || ending == ".jpeg") return SourceKind::Picture;
+  if (isDrawingFile(path)) return SourceKind::Solids;
   if (source.inMemory<std::string>() && ending == ".vdb")
     throw InputError(source.name() + ": a .vdb is read from a file, not from bytes");
   if (ending == ".toml" && isSolids(source)) return SourceKind::Solids;
@@ -118,7 +121,12 @@ TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
   return readMesh(source.path(), options, progress);
 }
 
-continuous::SolidScene readSolids(const Source& source) {
+continuous::SolidScene readSolids(const Source& source, std::optional<double> unit,
+                                  Warnings* warnings) {
+  if (isDrawingFile(source.path())) {
+    return continuous::solidsOfDrawing(readDrawing(readBytes(source), source.name(), warnings),
+                                       source.name(), unit, warnings);
+  }
   return continuous::readSolidScene(sceneText(source), source.name());
 }
 

@@ -5,11 +5,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
 #include "core/axes.h"
 #include "core/progress.h"
+#include "core/warnings.h"
 #include "maps/height_map_file.h"
 #include "mesh/mesh_file.h"
 #include "mesh/triangle_mesh.h"
@@ -72,7 +74,7 @@ enum class SourceKind {
   Mesh,       ///< .obj .ply .stl .off .glb .gltf
   Scene,      ///< .toml: a process that makes a mesh
   Pieces,     ///< .toml: a scene made of model pieces on a grid
-  Solids,     ///< .toml: a scene of solids between planes
+  Solids,     ///< .toml: a scene of solids between planes; .svg: a drawing
   Volume,     ///< .vdb of signed distances
   HeightMap,  ///< .asc .tif .exr .png .pgm .r16
   Labels,     ///< .txt .vox, .vdb of labels
@@ -88,12 +90,14 @@ void requireThere(const Source& source);
 
 /// The endings of examples, for help and errors.
 inline constexpr const char* kExampleEndings =
-    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .tif .exr .r16 .txt .vox .jpg or .toml";
+    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .tif .exr .r16 .txt .vox .jpg .svg or .toml";
 
 /// Read what a source holds. Throw `InputError` naming it, and `Cancelled`.
 TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
                            const Progress& progress = {});
-continuous::SolidScene readSolids(const Source& source);
+/// A scene, or a drawing, whose grid may be given.
+continuous::SolidScene readSolids(const Source& source, std::optional<double> unit = {},
+                                  Warnings* warnings = nullptr);
 DistanceField readDistances(const Source& source, const ReadVdbOptions& options = {},
                             Axes* wraps = nullptr, const Progress& progress = {});
 LabelGrid readLabelGrid(const Source& source, const Progress& progress = {});

@@ -3,7 +3,9 @@
 
 #include "mesh/face_outlines.h"
 
+#include <list>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace exemplar {
@@ -38,6 +40,41 @@ std::vector<TriangleCorner> outlineOf(const TriangleMesh& mesh, std::uint32_t fr
   return loop.size() == next.size() ? loop : std::vector<TriangleCorner>{};
 }
 
+/// Triangles `from` up to `to` as polygons with one loop each: from a triangle on, neighbors are
+/// added as long as that gives the loop a corner that it has not.
+void addPieces(const TriangleMesh& mesh, std::uint32_t from, std::uint32_t to,
+               std::size_t mostCorners, std::vector<std::vector<TriangleCorner>>& outlines) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, TriangleCorner> edges;
+  for (std::uint32_t t = from; t < to; ++t)
+    for (int c = 0; c < 3; ++c)
+      edges[{mesh.triangles[t][c], mesh.triangles[t][(c + 1) % 3]}] = {t, c};
+  std::vector<bool> taken(to - from);
+  for (std::uint32_t first = from; first < to; ++first) {
+    if (taken[first - from]) continue;
+    taken[first - from] = true;
+    std::list<TriangleCorner> loop{{first, 0}, {first, 1}, {first, 2}};
+    const auto vertex = [&](const TriangleCorner& c) {
+      return mesh.triangles[c.triangle][c.corner];
+    };
+    std::set<std::uint32_t> has{mesh.triangles[first].begin(), mesh.triangles[first].end()};
+    // Edges of the loop, each by the corner that it starts at, that were not looked at.
+    for (auto at = loop.begin(); at != loop.end();) {
+      const auto next = std::next(at) == loop.end() ? loop.begin() : std::next(at);
+      const auto found = edges.find({vertex(*next), vertex(*at)});
+      const TriangleCorner across = found == edges.end() ? *at : found->second;
+      const TriangleCorner corner{across.triangle, (across.corner + 2) % 3};
+      if (found == edges.end() || taken[across.triangle - from] || loop.size() >= mostCorners ||
+          !has.insert(vertex(corner)).second) {
+        ++at;
+        continue;
+      }
+      taken[across.triangle - from] = true;
+      loop.insert(std::next(at), corner);  // and the edge from `at` on is looked at again
+    }
+    outlines.emplace_back(loop.begin(), loop.end());
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<TriangleCorner>> faceOutlines(const TriangleMesh& mesh,
@@ -53,7 +90,7 @@ std::vector<std::vector<TriangleCorner>> faceOutlines(const TriangleMesh& mesh,
     if (!outline.empty() && outline.size() <= mostCorners) {
       outlines.push_back(std::move(outline));
     } else {
-      for (std::uint32_t t = from; t < to; ++t) outlines.push_back({{t, 0}, {t, 1}, {t, 2}});
+      addPieces(mesh, from, to, mostCorners, outlines);
     }
     from = to;
   }

@@ -23,8 +23,9 @@ struct TriangleCorner {
 
 /// The faces of a mesh whose triangles are parts of flat polygons: runs of triangles with equal
 /// numbers in `faces` (one for each triangle), as the corners of their outline. A run whose outline
-/// is not one loop (it has a hole, or touches itself) or has more than `mostCorners` corners stays
-/// triangles. With no `faces`, all are.
+/// is not one loop (it has a hole, or touches itself) or has more than `mostCorners` corners
+/// becomes several polygons without holes, of as many triangles as fit. With no `faces`, all are
+/// triangles.
 std::vector<std::vector<TriangleCorner>> faceOutlines(const TriangleMesh& mesh,
                                                       std::span<const std::uint32_t> faces,
                                                       std::size_t mostCorners);

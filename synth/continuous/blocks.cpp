@@ -132,6 +132,7 @@ BlockCounts modifyInBlocks(const Puzzle& puzzle, std::span<const double> weights
           }
           Search search(puzzle, weights, labels, marks);
           search.setBacktracking(options.backtracking);
+          search.setGuide(options.guide);
           const std::uint64_t number = static_cast<std::uint64_t>(region) + b;
           const bool done = search.begin(vertices, region + 1 + static_cast<std::uint32_t>(b)) &&
                             search.run(random.fork(1000 + number), options.budget) == Found::All;

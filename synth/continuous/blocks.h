@@ -17,7 +17,8 @@ struct BlockOptions {
   int side = 20;               ///< of a block, spacings, >= 2; rounded up to an even number
   int rounds = 2;              ///< of all blocks
   std::int64_t budget = 1000;  ///< failed choices in a block
-  bool backtracking = true;    ///< off: the papers' own algorithm
+  const Guide* guide = nullptr;
+  bool backtracking = true;  ///< off: the papers' own algorithm
 };
 
 struct BlockCounts {

@@ -18,14 +18,14 @@ struct Within {
   Families above = 0, below = 0;
   bool contains(Families cell) const { return (cell & above) == above && (cell & below) == 0; }
 };
-Within withinBox(const Arrangement& arrangement, const ExactPoint& p) {
+Within withinBox(const Arrangement& arrangement, const ExactBox& box, const ExactPoint& p) {
   static constexpr std::array<Vec3l, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  const PlaneSets& planes = arrangement.planes();
+  const std::vector<Vec3l>& normals = arrangement.planes().normals;
   Within within;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto family = std::ranges::find(planes.normals, axes[axis]) - planes.normals.begin();
-    if (p.n[axis] == planes.window.low[axis] * p.d) within.above |= Families{1} << family;
-    if (p.n[axis] == planes.window.high[axis] * p.d) within.below |= Families{1} << family;
+    const auto family = std::ranges::find(normals, axes[axis]) - normals.begin();
+    if (p.n[axis] == box.low[axis] * p.d) within.above |= Families{1} << family;
+    if (p.n[axis] == box.high[axis] * p.d) within.below |= Families{1} << family;
   }
   return within;
 }
@@ -41,7 +41,8 @@ SolidsFilling::SolidsFilling(const Arrangement& arrangement, const Solids& solid
     for (auto v = static_cast<std::uint32_t>(from); v < to; ++v) {
       const Central& central = arrangement.central(v);
       made[v] = substancesAround(solids, central, arrangement.point(v));
-      const Within within = withinBox(arrangement, arrangement.point(v));
+      const Within within =
+          withinBox(arrangement, arrangement.planes().window, arrangement.point(v));
       for (std::size_t c = 0; c < made[v].size(); ++c)
         if (!within.contains(central.cells[c])) made[v][c] = kAir;
     }
@@ -65,10 +66,34 @@ LabelFilling::LabelFilling(const Puzzle& puzzle, const Domains& solved,
     }
     std::vector<Substance> table =
         expanded(a.centrals(), backgroundAt(a.centrals(), ground, a.point(v)), central.families);
-    const Within within = withinBox(a, a.point(v));
+    const Within within = withinBox(a, a.planes().window, a.point(v));
     for (std::size_t c = 0; c < table.size(); ++c)
       if (!within.contains(central.cells[c])) table[c] = kAir;
     cells_[v] = tables_.add(a.kind(v), std::move(table));
+  }
+}
+
+CroppedFilling::CroppedFilling(const Arrangement& arrangement, const Filling& whole,
+                               const ExactBox& box)
+    : cells_(arrangement.vertices()) {
+  for (std::uint32_t v = 0; v < cells_.size(); ++v) {
+    const ExactPoint& p = arrangement.point(v);
+    const Central& central = arrangement.central(v);
+    bool outside = false, inside = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      outside = outside || p.n[axis] < box.low[axis] * p.d || p.n[axis] > box.high[axis] * p.d;
+      inside = inside && p.n[axis] > box.low[axis] * p.d && p.n[axis] < box.high[axis] * p.d;
+    }
+    const Substance* cells = whole.cells(v);
+    if (inside) {
+      cells_[v] = cells;
+      continue;
+    }
+    const Within within = withinBox(arrangement, box, p);
+    std::vector<Substance> table(cells, cells + central.cells.size());
+    for (std::size_t c = 0; c < table.size(); ++c)
+      if (outside || !within.contains(central.cells[c])) table[c] = kAir;
+    cells_[v] = tables_.add(arrangement.kind(v), std::move(table));
   }
 }
 

@@ -51,6 +51,18 @@ class LabelFilling final : public Filling {
   std::vector<const Substance*> cells_;
 };
 
+/// What of a filling is within a box whose sides are planes of the arrangement, or beyond it; air
+/// elsewhere.
+class CroppedFilling final : public Filling {
+ public:
+  CroppedFilling(const Arrangement& arrangement, const Filling& whole, const ExactBox& box);
+  const Substance* cells(std::uint32_t vertex) const override { return cells_[vertex]; }
+
+ private:
+  Tables tables_;
+  std::vector<const Substance*> cells_;
+};
+
 /// The figure at each inner vertex of a filling, or `FigureSet::kNone` where it is none of them.
 std::vector<std::uint32_t> figuresOf(const Arrangement& arrangement, const Filling& filling,
                                      const FigureSet& figures);

@@ -4,6 +4,7 @@
 #include "synth/continuous/grounding.h"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "core/disjoint_sets.h"
@@ -42,6 +43,12 @@ std::vector<std::uint8_t> grounded(const Puzzle& puzzle, Substance ground, Disjo
   return has;
 }
 
+std::size_t labelIn(const Domains& labels, std::uint32_t v) {
+  std::size_t label = kNoLabel;
+  forEach(labels[v], [&](std::size_t l) { label = l; });
+  return label;
+}
+
 bool isAir(std::span<const Substance> cells) {
   return std::ranges::all_of(cells, [](Substance s) { return s == kAir; });
 }
@@ -66,11 +73,7 @@ bool anyFloats(const Puzzle& puzzle, std::span<const std::uint32_t> figures, Sub
 std::int64_t removeFloating(const Puzzle& puzzle, const Domains& allowed,
                             std::span<const std::uint32_t> vertices, Substance ground,
                             Domains& labels) {
-  const auto labelOf = [&](std::uint32_t v) {
-    std::size_t label = kNoLabel;
-    forEach(labels[v], [&](std::size_t l) { label = l; });
-    return label;
-  };
+  const auto labelOf = [&](std::uint32_t v) { return labelIn(labels, v); };
   const std::uint32_t air = puzzle.figures.find({0, {kAir}});
   DisjointSets pieces;
   const std::vector<std::uint8_t> has = grounded(puzzle, ground, pieces, labelOf);
@@ -91,6 +94,60 @@ std::int64_t removeFloating(const Puzzle& puzzle, const Domains& allowed,
     insert(labels[v], static_cast<std::size_t>(puzzle.classOf(v).labelOf(air)));
   }
   return removed;
+}
+
+std::int64_t keepLargest(const Puzzle& puzzle, const Domains& allowed,
+                         std::span<const std::uint32_t> vertices, const Growth& growth, int most,
+                         Domains& labels) {
+  const Arrangement& a = puzzle.arrangement;
+  DisjointSets pieces(a.vertices());
+  for (const std::uint32_t v : vertices) {
+    const std::size_t label = labelIn(labels, v);
+    const std::span<const EdgeEnd> ends = a.ends(v);
+    for (std::size_t r = 0; r < ends.size(); ++r) {
+      if (ends[r].vertex != EdgeEnd::kNone && a.inside(ends[r].vertex) &&
+          growth.builtAlong[a.kind(v)][r][label])
+        pieces.join(v, ends[r].vertex);
+    }
+  }
+  // Pieces by size; those that cannot become background come first.
+  struct Piece {
+    std::vector<std::uint32_t> vertices;
+    bool stays = false;
+  };
+  std::map<std::uint32_t, Piece> byRoot;
+  for (const std::uint32_t v : vertices) {
+    const std::size_t label = labelIn(labels, v);
+    if (!growth.builtAt[a.kind(v)][label]) continue;
+    Piece& piece = byRoot[pieces.find(v)];
+    piece.vertices.push_back(v);
+    const auto background = static_cast<std::size_t>(puzzle.background[v]);
+    piece.stays = piece.stays || !contains(allowed[v], background);
+    // What is around the piece must look the same with background in its place.
+    const std::span<const EdgeEnd> ends = a.ends(v);
+    for (std::size_t r = 0; r < ends.size() && !piece.stays; ++r) {
+      if (growth.builtAlong[a.kind(v)][r][label]) continue;
+      const VertexClass::Along& along = puzzle.classOf(v).rays[r];
+      piece.stays = along.edgeOf[label] != along.edgeOf[background];
+    }
+  }
+  std::vector<const Piece*> order;
+  for (const auto& [root, piece] : byRoot) order.push_back(&piece);
+  std::ranges::stable_sort(order, [](const Piece* p, const Piece* q) {
+    return p->stays != q->stays ? p->stays : p->vertices.size() > q->vertices.size();
+  });
+  std::int64_t left = 0;
+  for (const Piece* piece : order) {
+    if (piece->stays || left < most) {
+      ++left;
+      continue;
+    }
+    for (const std::uint32_t v : piece->vertices) {
+      std::ranges::fill(labels[v], 0);
+      insert(labels[v], static_cast<std::size_t>(puzzle.background[v]));
+    }
+  }
+  return left;
 }
 
 }  // namespace exemplar::continuous

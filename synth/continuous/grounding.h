@@ -22,4 +22,11 @@ std::int64_t removeFloating(const Puzzle& puzzle, const Domains& allowed,
                             std::span<const std::uint32_t> vertices, Substance ground,
                             Domains& labels);
 
+/// Turns all but the largest connected pieces of what is built (neither air nor the ground's) into
+/// background in a solved puzzle, and returns how many pieces are left; a piece that cannot be
+/// (pins, or a relief around it) stays. Pieces hang together by edges.
+std::int64_t keepLargest(const Puzzle& puzzle, const Domains& allowed,
+                         std::span<const std::uint32_t> vertices, const Growth& growth, int most,
+                         Domains& labels);
+
 }  // namespace exemplar::continuous

@@ -91,6 +91,10 @@ ExactBox windowOf(const PlaneLattice& lattice, const Vec3i& size) {
 }
 
 PlaneSets planesIn(const PlaneLattice& lattice, const ExactBox& window) {
+  return planesIn(lattice, window, window);
+}
+
+PlaneSets planesIn(const PlaneLattice& lattice, const ExactBox& window, const ExactBox& inner) {
   for (int axis = 0; axis < 3; ++axis) {
     if (window.low[axis] < -kMostCoordinate || window.high[axis] > kMostCoordinate) {
       throw InputError("the result would reach beyond " + std::to_string(kMostCoordinate) +
@@ -119,8 +123,10 @@ PlaneSets planesIn(const PlaneLattice& lattice, const ExactBox& window) {
       found = sets.normals.end() - 1;
     }
     auto& offsets = sets.offsets[static_cast<std::size_t>(found - sets.normals.begin())];
-    offsets.push_back(window.low[axis]);
-    offsets.push_back(window.high[axis]);
+    for (const ExactBox& box : {window, inner}) {
+      offsets.push_back(box.low[axis]);
+      offsets.push_back(box.high[axis]);
+    }
     std::ranges::sort(offsets);
     offsets.erase(std::unique(offsets.begin(), offsets.end()), offsets.end());
   }

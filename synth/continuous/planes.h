@@ -48,8 +48,9 @@ ExactBox windowOf(const PlaneLattice& lattice, const Vec3i& size);
 /// The example's size in spacings.
 Vec3i sizeInSpacings(const PlaneLattice& lattice, const Solids& solids);
 
-/// The planes that cross a box. Throws `InputError` where that is out of range, or axes and normals
-/// are more than `kMostFamilies`.
+/// The planes that cross a box, and the sides of another one within it. Throws `InputError` where
+/// that is out of range, or axes and normals are more than `kMostFamilies`.
 PlaneSets planesIn(const PlaneLattice& lattice, const ExactBox& window);
+PlaneSets planesIn(const PlaneLattice& lattice, const ExactBox& window, const ExactBox& inner);
 
 }  // namespace exemplar::continuous

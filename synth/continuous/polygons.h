@@ -36,6 +36,7 @@ struct PolygonModel {
   std::vector<std::string> substances;  ///< names; the first is "air"
   std::vector<Material> looks;          ///< of each substance
   Vec3i size;                           ///< of the box, in spacings
+  bool flat = false;                    ///< prisms of one height that stand for shapes of the plane
 
   Vec3d toWorld(const ExactPoint& p) const { return origin + unit * p.approximately(); }
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -210,11 +211,16 @@ bool Search::begin(std::span<const std::uint32_t> vertices, std::uint32_t region
   return propagate();
 }
 
+double Search::weight(std::uint32_t v, std::uint32_t figure) const {
+  const double w = weights_[figure];
+  return guide_ ? w * std::exp2(static_cast<double>(guide_->lift[v] * guide_->built[figure])) : w;
+}
+
 std::size_t Search::choose(std::uint32_t v, const Random& random) {
   const VertexClass& c = puzzle_.classOf(v);
   const std::span<const Word> domain = domains_[v];
   double sum = 0;
-  forEach(domain, [&](std::size_t l) { sum += weights_[c.figures[l]]; });
+  forEach(domain, [&](std::size_t l) { sum += weight(v, c.figures[l]); });
   const double uniform = random.uniform(placeOf(puzzle_.arrangement.point(v)),
                                         static_cast<std::uint32_t>(counts_.failures));
   double rest = uniform * sum;
@@ -227,19 +233,60 @@ std::size_t Search::choose(std::uint32_t v, const Random& random) {
       decided = true;
       return;
     }
-    if (weights_[c.figures[l]] <= 0) return;
+    const double w = weight(v, c.figures[l]);
+    if (w <= 0) return;
     last = l;
-    rest -= weights_[c.figures[l]];
+    rest -= w;
     decided = rest < 0;
   });
   return last;
 }
 
+/// Makes a choice and follows what it implies; false where that fails.
+bool Search::assign(const Choice& choice) {
+  choices_.push_back(choice);
+  ++counts_.choices;
+  ++epoch_;
+  std::vector<Word> labels(domains_.words());
+  insert(labels, choice.label);
+  set(choice.vertex, labels.data());
+  enqueue(choice.vertex);
+  return propagate();
+}
+
+/// After a choice that failed: undoes it and removes its label, and so on while that fails, too.
+/// The last of `choices_` that is left is the one before. Returns how the search ends, if it does.
+std::optional<Found> Search::backtrack(std::int64_t failuresAllowed, std::size_t start) {
+  std::vector<Word> labels(domains_.words());
+  while (true) {
+    ++counts_.failures;
+    if (choices_.empty()) {
+      undo(start);
+      return Found::Nothing;
+    }
+    if (!backtracks_ || counts_.failures > failuresAllowed) {
+      undo(start);
+      choices_.clear();
+      return Found::Spent;
+    }
+    const Choice last = choices_.back();
+    choices_.pop_back();
+    undo(last.trail);
+    ++epoch_;
+    const std::span<const Word> domain = domains_[last.vertex];
+    std::ranges::copy(domain, labels.begin());
+    erase(labels, last.label);
+    set(last.vertex, labels.data());
+    if (count(domains_[last.vertex]) == 0) continue;
+    enqueue(last.vertex);
+    if (propagate()) return std::nullopt;
+  }
+}
+
 Found Search::run(const Random& random, std::int64_t budget, const Progress& progress) {
   const std::size_t start = trailVertices_.size();
   std::size_t place = 0, reported = 0;
-  std::vector<Word> labels(domains_.words());
-  const std::int64_t failedBefore = counts_.failures;
+  const std::int64_t failuresAllowed = counts_.failures + budget;
   while (true) {
     while (place < vertices_.size() && count(domains_[vertices_[place]]) == 1) ++place;
     if (place == vertices_.size()) return Found::All;
@@ -251,40 +298,10 @@ Found Search::run(const Random& random, std::int64_t budget, const Progress& pro
       progress.check();
     }
     const std::uint32_t v = vertices_[place];
-    const std::size_t label = choose(v, random);
-    choices_.push_back({place, label, trailVertices_.size()});
-    ++counts_.choices;
-    ++epoch_;
-    std::ranges::fill(labels, 0);
-    insert(labels, label);
-    set(v, labels.data());
-    enqueue(v);
-    bool consistent = propagate();
-    while (!consistent) {
-      ++counts_.failures;
-      if (choices_.empty()) {
-        undo(start);
-        return Found::Nothing;
-      }
-      if (!backtracks_ || counts_.failures - failedBefore > budget) {
-        undo(start);
-        choices_.clear();
-        return Found::Spent;
-      }
-      const Choice last = choices_.back();
-      choices_.pop_back();
-      undo(last.trail);
-      ++epoch_;
-      const std::uint32_t failed = vertices_[last.place];
-      const std::span<const Word> domain = domains_[failed];
-      std::ranges::copy(domain, labels.begin());
-      erase(labels, last.label);
-      set(failed, labels.data());
-      place = last.place;
-      if (count(domains_[failed]) == 0) continue;
-      enqueue(failed);
-      consistent = propagate();
-    }
+    if (assign({place, choose(v, random), trailVertices_.size(), v})) continue;
+    // Vertices before the choice that is undone are decided.
+    if (const std::optional<Found> end = backtrack(failuresAllowed, start)) return *end;
+    place = choices_.empty() ? 0 : choices_.back().place;
   }
 }
 

@@ -54,6 +54,24 @@ Figure backgroundAt(const Centrals& centrals, const std::optional<Ground>& groun
 Puzzle makePuzzle(const Arrangement& arrangement, const FigureSet& figures,
                   const std::optional<Ground>& ground, const Progress& progress = {});
 
+/// How likely what is built is at each vertex, beside the weights of figures.
+struct Guide {
+  std::vector<float>
+      lift;  ///< of each vertex: log2 of the factor of a figure that is built all around
+  std::vector<float> built;  ///< of each figure: the share of its cells that are built
+};
+
+/// Results whose built parts hang together: what is grown from seeds (thesis, section 4.6.2).
+struct Growth {
+  int seeds = 1;     ///< at most
+  double share = 1;  ///< of the vertices that are built, from which on nothing more grows, 0..1
+  /// Of the labels of each class: whether something is built there, and along each ray.
+  std::vector<std::vector<std::uint8_t>> builtAt;
+  std::vector<std::vector<std::vector<std::uint8_t>>> builtAlong;
+};
+/// What is built: all substances but air and the ground's.
+Growth growthOf(const Puzzle& puzzle, std::optional<Substance> ground);
+
 /// How a search ended.
 enum class Found {
   All,      ///< every vertex has one label
@@ -92,6 +110,11 @@ class Search {
   /// After `begin`: gives each of the vertices one label, in their order. After `Spent` and
   /// `Nothing` the domains are what they were after `begin`. Throws `Cancelled`.
   Found run(const Random& random, std::int64_t budget, const Progress& progress = {});
+  /// The same in an order in which what is built grows from seeds: a vertex at random among those
+  /// next to what is built, until nothing can grow; then all else stays as empty as it can.
+  Found grow(const Growth& growth, const Random& random, std::int64_t budget,
+             const Progress& progress = {});
+  void setGuide(const Guide* guide) { guide_ = guide; }
   /// Backtracking off: the first failure ends the search, as in the papers.
   void setBacktracking(bool on) { backtracks_ = on; }
   const SearchCounts& counts() const { return counts_; }
@@ -101,6 +124,8 @@ class Search {
     std::size_t place;  // in vertices_
     std::size_t label;
     std::size_t trail;
+    std::uint32_t vertex;
+    bool seed = false;
   };
 
   bool narrow(std::uint32_t v, std::uint32_t ray, const Word* edges);
@@ -110,6 +135,9 @@ class Search {
   void undo(std::size_t trail);
   void enqueue(std::uint32_t v);
   std::size_t choose(std::uint32_t v, const Random& random);
+  double weight(std::uint32_t v, std::uint32_t figure) const;
+  bool assign(const Choice& choice);
+  std::optional<Found> backtrack(std::int64_t failuresAllowed, std::size_t start);
   void edgesOf(std::uint32_t v, std::uint32_t ray, Word* edges) const;
 
   const Puzzle& puzzle_;
@@ -122,6 +150,7 @@ class Search {
   std::vector<Choice> choices_;
   std::vector<std::uint32_t> trailVertices_;
   std::vector<Word> trailWords_;
+  const Guide* guide_ = nullptr;
   bool backtracks_ = true;
   SearchCounts counts_;
 };

@@ -43,25 +43,6 @@ double angleBetween(const Vec3d& a, const Vec3d& b) {
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// The integer vector of smallest components that is near enough to a direction, or the nearest.
-Vec3l integerDirection(const Vec3d& direction) {
-  const Vec3d size{std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)};
-  const double most = std::max({size.x, size.y, size.z});
-  Vec3l best;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int k = 1; k <= kMostNormal; ++k) {
-    const Vec3d s = direction * (k / most);
-    const Vec3l v{std::llround(s.x), std::llround(s.y), std::llround(s.z)};
-    const double angle = angleBetween(cast<double>(v), direction);
-    if (angle < nearest) {
-      nearest = angle;
-      best = primitive(v);
-    }
-    if (angle < kSameDirection) break;
-  }
-  return best;
-}
-
 /// Euclid's algorithm on lengths that are known to within `precision`.
 double commonMeasure(double a, double b, double precision) {
   while (b > precision) {
@@ -182,7 +163,7 @@ class Snapping {
     std::vector<Vec3l> integer;
     std::set<std::array<std::int64_t, 3>> distinct;
     for (const Vec3d& c : clusters) {
-      integer.push_back(integerDirection(c));
+      integer.push_back(integerDirection(c, kSameDirection));
       const Vec3l v = canonical(integer.back());
       distinct.insert({v.x, v.y, v.z});
     }
@@ -410,12 +391,13 @@ class Snapping {
           sideOf.emplace(std::pair(s, patchOf_[n]), static_cast<std::uint32_t>(solid.sides.size()));
       if (isNew) solid.sides.push_back(planeOf(patchOf_[n]));
       const std::uint32_t t = triangles_[n];
-      ShellTriangle triangle{{}, side->second, t};
+      ShellTriangle triangle{{}, side->second};
       for (int c = 0; c < 3; ++c) triangle.corners[c] = nearIndex_[corner(t, c)];
       volume[s] +=
           dot(made_.nearPoints[triangle.corners[0]],
               cross(made_.nearPoints[triangle.corners[1]], made_.nearPoints[triangle.corners[2]]));
       solid.triangles.push_back(triangle);
+      made_.origins.push_back({solid.substance, solid.sides[side->second].normal, t});
     }
     for (std::size_t s = 0; s < made_.solids.size(); ++s)
       if (volume[s] < 0) turnOutside(made_.solids[s]);
@@ -426,6 +408,8 @@ class Snapping {
     warn(options_.warnings,
          "faces of " + made_.substances[solid.substance] + " point inward; turned around");
     for (ExactPlane& side : solid.sides) side = {-side.normal, -side.offset};
+    for (FaceOrigin& origin : made_.origins)
+      if (origin.substance == solid.substance) origin.normal = -origin.normal;
     for (ShellTriangle& triangle : solid.triangles)
       std::swap(triangle.corners[1], triangle.corners[2]);
   }
@@ -460,6 +444,24 @@ class Snapping {
 };
 
 }  // namespace
+
+Vec3l integerDirection(const Vec3d& direction, double within) {
+  const Vec3d size{std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)};
+  const double most = std::max({size.x, size.y, size.z});
+  Vec3l best;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int k = 1; k <= kMostNormal; ++k) {
+    const Vec3d s = direction * (k / most);
+    const Vec3l v{std::llround(s.x), std::llround(s.y), std::llround(s.z)};
+    const double angle = angleBetween(cast<double>(v), direction);
+    if (angle < nearest) {
+      nearest = angle;
+      best = primitive(v);
+    }
+    if (angle < within) break;
+  }
+  return best;
+}
 
 Solids snapMesh(const TriangleMesh& mesh, const SnapOptions& options, SnapReport* report,
                 const Progress& progress) {

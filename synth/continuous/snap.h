@@ -30,6 +30,10 @@ struct SnapReport {
   int shells = 0;    ///< closed, connected parts
 };
 
+/// The integer vector of smallest components (up to `kMostNormal`) that is within an angle
+/// (radians) of a direction, or the nearest.
+Vec3l integerDirection(const Vec3d& direction, double within);
+
 /// A closed mesh as solids: coplanar triangles become faces, the directions of faces primitive
 /// integer vectors, their offsets whole numbers of the grid, and vertices are where three faces
 /// meet again. Parts that hang together by edges have the substance that most of their surface has

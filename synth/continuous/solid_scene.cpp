@@ -21,7 +21,8 @@ class Reader {
       : name_(name), root_(parseToml(text, name)) {}
 
   SolidScene read() {
-    requireKeys(root_, {"kind", "unit", "scale", "spacing", "ground", "substances", "part"});
+    requireKeys(root_, {"kind", "unit", "scale", "spacing", "flat", "ground", "substances", "part",
+                        "object"});
     scene_.name = name_;
     scene_.solids.unit = real(root_, "unit", 1, 1e-9, 1e9);
     scene_.solids.substances = {"air"};
@@ -36,15 +37,30 @@ class Reader {
       scene_.spacing = whole(*spacing, "spacing");
       if (*scene_.spacing < 1) fail(*spacing, "'spacing' must be at least 1");
     }
+    if (const toml::node* flat = root_.get("flat")) {
+      if (!flat->is_boolean()) fail(*flat, "'flat' must be true or false");
+      scene_.solids.flat = *flat->value<bool>();
+    }
     readLooks();
     readGround();
     const toml::node* parts = root_.get("part");
-    if (!parts || !parts->as_array() || parts->as_array()->empty())
+    if ((!parts && !root_.get("object")) ||
+        (parts && (!parts->as_array() || parts->as_array()->empty())))
       throw InputError(name_ + ": a scene of solids needs a [[part]]");
-    for (const toml::node& part : *parts->as_array()) {
+    for (std::size_t n = 0; parts && n < parts->as_array()->size(); ++n) {
+      const toml::node& part = *parts->as_array()->get(n);
       if (!part.as_table()) fail(part, "'part' must be tables, each [[part]]");
-      readPart(*part.as_table());
+      scene_.solids.flat ? readFlatPart(*part.as_table()) : readPart(*part.as_table());
     }
+    if (const toml::node* objects = root_.get("object")) {
+      if (scene_.solids.flat) fail(*objects, "a flat scene has no objects");
+      if (!objects->as_array()) fail(*objects, "'object' must be tables, each [[object]]");
+      for (const toml::node& object : *objects->as_array()) {
+        if (!object.as_table()) fail(object, "'object' must be tables, each [[object]]");
+        readObject(*object.as_table());
+      }
+    }
+    if (scene_.solids.flat) raise();
     return std::move(scene_);
   }
 
@@ -146,6 +162,7 @@ class Reader {
     const toml::node* node = root_.get("ground");
     if (!node) return;
     if (!node->as_table()) fail(*node, "'ground' must be { height = 0, substance = \"...\" }");
+    if (scene_.solids.flat) fail(*node, "a flat scene has no ground; use a part");
     const toml::table& table = *node->as_table();
     requireKeys(table, {"height", "substance"});
     const toml::node* name = table.get("substance");
@@ -211,6 +228,119 @@ class Reader {
     }
     scene_.solids.solids.push_back(std::move(part));
   }
+  /// A mesh's box in two halves, between which a plane keeps its proportions.
+  void readObject(const toml::table& table) {
+    requireKeys(table, {"file", "box", "keep"});
+    const toml::node *file = table.get("file"), *box = table.get("box");
+    if (!file || !box) fail(table, "an object needs a 'file' and a 'box'");
+    StandIn object;
+    object.file = file->value<std::string>().value_or("");
+    if (object.file.empty()) fail(*file, "'file' must be the name of a mesh");
+    object.name = object.file.substr(object.file.find_last_of('/') + 1);
+    const std::vector<std::int64_t> b = wholes(*box, 6, "box");
+    object.box = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+    const Vec3l low = object.box.low, size = object.box.size();
+    if (size.x <= 0 || size.y <= 0 || size.z <= 0)
+      fail(*box, "'box' must be its low corner, then its high one");
+    const toml::node* keep = table.get("keep");
+    const std::string kept = keep ? keep->value<std::string>().value_or("") : "xyz";
+    ExactPlane cut;
+    if (kept == "xy") {
+      cut.normal = primitive({size.y, -size.x, 0});
+    } else if (kept == "xz") {
+      cut.normal = primitive({size.z, 0, -size.x});
+    } else if (kept == "yz") {
+      cut.normal = primitive({0, size.z, -size.y});
+    } else if (kept == "xyz") {
+      cut.normal = primitive({size.y * size.z, size.x * size.z, size.x * size.y});
+    } else {
+      fail(keep ? *keep : table, "'keep' must be \"xy\", \"xz\", \"yz\" or \"xyz\"");
+    }
+    cut.offset = dot(cut.normal, kept == "xyz" ? low + Vec3l{size.x, 0, 0} : low);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(cut.normal[axis]) > kMostNormal)
+        fail(*box, "the sides of 'box' are no fractions of numbers up to 64; choose simpler ones");
+    }
+    const auto known = std::ranges::find(scene_.standIns, object.file, &StandIn::file);
+    if (known != scene_.standIns.end()) {
+      object.halves = known->halves;
+    } else {
+      const std::string names[] = {object.name, object.name + " (other half)"};
+      for (int half = 0; half < 2; ++half)
+        object.halves[half] = substance(*toml::array{names[half]}.get(0));
+      scene_.standIns.push_back(object);
+    }
+    for (int half = 0; half < 2; ++half) {
+      Solid part{object.halves[half], {}, {}};
+      for (int axis = 0; axis < 3; ++axis) {
+        Vec3l n;
+        n[axis] = 1;
+        part.sides.push_back({n, object.box.high[axis]});
+        part.sides.push_back({-n, -low[axis]});
+      }
+      part.sides.push_back(half == 0 ? cut : ExactPlane{-cut.normal, -cut.offset});
+      scene_.solids.solids.push_back(std::move(part));
+    }
+  }
+
+  /// A part of a scene of the plane: its upright sides.
+  void readFlatPart(const toml::table& table) {
+    requireKeys(table, {"substance", "box", "outline", "planes", "move"});
+    const toml::node* name = table.get("substance");
+    if (!name) fail(table, "a part needs a 'substance'");
+    Solid part;
+    part.substance = substance(*name);
+    std::vector<Vec3l> corners;
+    int forms = 0;
+    if (const toml::node* box = table.get("box")) {
+      ++forms;
+      const std::vector<std::int64_t> b = wholes(*box, 4, "box");
+      if (b[0] >= b[2] || b[1] >= b[3])
+        fail(*box, "'box' must be its low corner, then its high one");
+      corners = {{b[0], b[1], 0}, {b[2], b[1], 0}, {b[2], b[3], 0}, {b[0], b[3], 0}};
+    }
+    if (const toml::node* list = table.get("outline")) {
+      ++forms;
+      corners = points(*list, "outline", true);
+    }
+    if (const toml::node* list = table.get("planes")) {
+      ++forms;
+      if (!list->as_array()) fail(*list, "'planes' must be a list");
+      for (const toml::node& line : *list->as_array()) {
+        const std::vector<std::int64_t> p = wholes(line, 3, "planes");
+        part.sides.push_back(planeOf({p[0], p[1], 0}, p[2], line));
+      }
+    }
+    if (forms != 1) fail(table, "a part needs one of 'box', 'outline' and 'planes'");
+    if (!corners.empty()) {
+      std::vector<Vec3l> both = corners;
+      for (const Vec3l& p : corners) both.push_back(p + Vec3l{0, 0, 1});
+      try {
+        part.sides = hullOf(both);
+      } catch (const InputError& error) {
+        fail(table, error.what());
+      }
+      std::erase_if(part.sides, [](const ExactPlane& side) { return side.normal.z != 0; });
+    }
+    if (const toml::node* move = table.get("move")) {
+      const std::vector<std::int64_t> m = wholes(*move, 2, "move");
+      for (ExactPlane& side : part.sides) side.offset += dot(side.normal, Vec3l{m[0], m[1], 0});
+      for (Vec3l& p : corners) p += Vec3l{m[0], m[1], 0};
+    }
+    flatCorners_.insert(flatCorners_.end(), corners.begin(), corners.end());
+    scene_.solids.solids.push_back(std::move(part));
+  }
+  /// Gives the parts of a scene of the plane their height.
+  void raise() {
+    std::vector<ExactPlane> sides;
+    for (const Solid& part : scene_.solids.solids)
+      sides.insert(sides.end(), part.sides.begin(), part.sides.end());
+    const std::int64_t height = scene_.spacing.value_or(prismHeight(sides, flatCorners_));
+    for (Solid& part : scene_.solids.solids) {
+      part.sides.push_back({{0, 0, 1}, height});
+      part.sides.push_back({{0, 0, -1}, 0});
+    }
+  }
   ExactPlane planeOf(const Vec3l& normal, std::int64_t offset, const toml::node& node) const {
     if (normal == Vec3l{}) fail(node, "a plane's normal is 0");
     const std::int64_t g = gcd(normal);
@@ -225,9 +355,27 @@ class Reader {
   std::string name_;
   toml::table root_;
   SolidScene scene_;
+  std::vector<Vec3l> flatCorners_;
 };
 
 }  // namespace
+
+std::int64_t prismHeight(std::span<const ExactPlane> sides, std::span<const Vec3l> corners) {
+  std::vector<ExactPlane> planes;
+  for (const ExactPlane& side : sides) planes.push_back(canonical(side));
+  makeDistinct(planes);
+  std::int64_t alongAxes = 0, other = 0, ofCorners = 0;
+  for (std::size_t p = 1; p < planes.size(); ++p) {
+    if (planes[p].normal != planes[p - 1].normal) continue;
+    const Vec3l& n = planes[p].normal;
+    std::int64_t& step = n.x == 0 || n.y == 0 ? alongAxes : other;
+    step = std::gcd(step, planes[p].offset - planes[p - 1].offset);
+  }
+  for (const Vec3l& c : corners) ofCorners = std::gcd(ofCorners, gcd(c - corners[0]));
+  for (const std::int64_t step : {alongAxes, other, ofCorners})
+    if (step > 0) return step;
+  return 1;
+}
 
 std::vector<ExactPlane> hullOf(const std::vector<Vec3l>& points) {
   std::vector<ExactPlane> sides;

@@ -92,11 +92,12 @@ Vec3l directionInto(const Central& central, std::uint32_t cell, int attempt) {
   return sum;
 }
 
-Substance substanceOf(const Solids& solids, const Central& central, const ExactPoint& point,
-                      std::uint32_t cell) {
+/// `near` are the solids that may have anything at the point, ascending.
+Substance substanceOf(const Solids& solids, std::span<const std::uint32_t> near,
+                      const Central& central, const ExactPoint& point, std::uint32_t cell) {
   const Vec3l inward = directionInto(central, cell, 0);
-  for (std::size_t s = solids.solids.size(); s-- > 0;) {
-    const Solid& solid = solids.solids[s];
+  for (std::size_t n = near.size(); n-- > 0;) {
+    const Solid& solid = solids.solids[near[n]];
     if (!isShell(solid)) {
       if (insidePart(solid, point, inward)) return solid.substance;
       continue;
@@ -162,6 +163,70 @@ std::vector<ExactPlane> partPlanes(const Solids& solids) {
   return planes;
 }
 
+constexpr ExactBox kEmptyBox{{kMostCoordinate, kMostCoordinate, kMostCoordinate},
+                             {-kMostCoordinate, -kMostCoordinate, -kMostCoordinate}};
+void add(ExactBox& box, const ExactPoint& p) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(box.low[axis], floorDivide(p.n[axis], p.d));
+    box.high[axis] = std::max(box.high[axis], -floorDivide(-p.n[axis], p.d));
+  }
+}
+
+/// The smallest whole box around a convex part; `kEmptyBox` without corners.
+ExactBox partBox(const Solid& part) {
+  ExactBox box = kEmptyBox;
+  ExactPoint p;
+  const std::vector<ExactPlane>& sides = part.sides;
+  for (std::size_t a = 0; a < sides.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      for (std::size_t c = 0; c < b; ++c)
+        if (meet(sides[a], sides[b], sides[c], p) && touches(part, p)) add(box, p);
+    }
+  }
+  return box;
+}
+
+bool overlap(const ExactBox& a, const ExactBox& b) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (a.low[axis] > b.high[axis] || b.low[axis] > a.high[axis]) return false;
+  return true;
+}
+
+/// Points of each convex part at which planes of it and of parts next to it meet.
+void addPartPoints(const Solids& solids, std::vector<ExactPoint>& points) {
+  std::vector<std::size_t> parts;
+  std::vector<ExactBox> boxes;
+  for (std::size_t s = 0; s < solids.solids.size(); ++s) {
+    if (isShell(solids.solids[s])) continue;
+    parts.push_back(s);
+    boxes.push_back(partBox(solids.solids[s]));
+  }
+  std::vector<std::vector<ExactPoint>> found(parts.size());
+  parallelFor(0, parts.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) {
+      const Solid& part = solids.solids[parts[n]];
+      std::vector<ExactPlane> planes;
+      for (std::size_t m = 0; m < parts.size(); ++m) {
+        if (!overlap(boxes[n], boxes[m])) continue;
+        for (const ExactPlane& side : solids.solids[parts[m]].sides)
+          planes.push_back(canonical(side));
+      }
+      if (solids.ground) planes.push_back({{0, 0, 1}, solids.ground->height});
+      makeDistinct(planes);
+      ExactPoint p;
+      for (std::size_t a = 0; a < planes.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+          for (std::size_t c = 0; c < b; ++c)
+            if (meet(planes[a], planes[b], planes[c], p) && touches(part, p)) found[n].push_back(p);
+        }
+      }
+      makeDistinct(found[n]);
+    }
+  });
+  for (const std::vector<ExactPoint>& some : found)
+    points.insert(points.end(), some.begin(), some.end());
+}
+
 bool touchesAnyPart(const Solids& solids, const ExactPoint& p) {
   if (solids.ground && p.n.z <= solids.ground->height * p.d) return true;
   return std::ranges::any_of(solids.solids,
@@ -211,14 +276,9 @@ std::vector<Vec3l> normalsOf(std::span<const ExactPlane> planes) {
 
 std::vector<ExactPoint> candidatePoints(const Solids& solids) {
   std::vector<ExactPoint> points = solids.points;
+  addPartPoints(solids, points);
   const std::vector<ExactPlane> parts = partPlanes(solids);
   ExactPoint p;
-  for (std::size_t a = 0; a < parts.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      for (std::size_t c = 0; c < b; ++c)
-        if (meet(parts[a], parts[b], parts[c], p) && touchesAnyPart(solids, p)) points.push_back(p);
-    }
-  }
   const std::vector<ExactPlane> all = planesOf(solids);
   for (const ShellEdge& edge : shellEdges(solids)) {
     for (const ExactPlane& plane : all)
@@ -237,35 +297,29 @@ std::vector<ExactPoint> candidatePoints(const Solids& solids) {
 }
 
 ExactBox boxOf(const Solids& solids) {
-  ExactBox box{{kMostCoordinate, kMostCoordinate, kMostCoordinate},
-               {-kMostCoordinate, -kMostCoordinate, -kMostCoordinate}};
-  const auto add = [&](const ExactPoint& p) {
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], floorDivide(p.n[axis], p.d));
-      box.high[axis] = std::max(box.high[axis], -floorDivide(-p.n[axis], p.d));
-    }
-  };
+  ExactBox box = kEmptyBox;
   for (const Solid& solid : solids.solids) {
     if (isShell(solid)) continue;
     requireBounded(solid);
-    ExactPoint p;
-    for (const ExactPlane& a : solid.sides) {
-      for (const ExactPlane& b : solid.sides) {
-        for (const ExactPlane& c : solid.sides)
-          if (before(a, b) && before(b, c) && meet(a, b, c, p) && touches(solid, p)) add(p);
-      }
+    const ExactBox part = partBox(solid);
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], part.low[axis]);
+      box.high[axis] = std::max(box.high[axis], part.high[axis]);
     }
   }
-  for (const ExactPoint& p : solids.points) add(p);
+  for (const ExactPoint& p : solids.points) add(box, p);
   if (box.low.x > box.high.x) throw InputError("the example has no solids");
   return box;
 }
 
 std::vector<Substance> substancesAround(const Solids& solids, const Central& central,
                                         const ExactPoint& point) {
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t s = 0; s < solids.solids.size(); ++s)
+    if (isShell(solids.solids[s]) || touches(solids.solids[s], point)) near.push_back(s);
   std::vector<Substance> found(central.cells.size());
   for (std::uint32_t c = 0; c < found.size(); ++c)
-    found[c] = substanceOf(solids, central, point, c);
+    found[c] = substanceOf(solids, near, central, point, c);
   return found;
 }
 

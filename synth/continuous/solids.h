@@ -24,7 +24,6 @@ inline constexpr Substance kAir = 0;
 struct ShellTriangle {
   std::array<std::uint32_t, 3> corners{};  ///< indices into `Solids::nearPoints`
   std::uint32_t plane = 0;                 ///< index into `Solid::sides`; its normal points outward
-  std::uint32_t origin = 0;                ///< the triangle of the mesh it was made of
 };
 
 /// What has one substance: a convex part, the points on the inner side of all planes; or a closed
@@ -33,6 +32,13 @@ struct Solid {
   Substance substance = 1;
   std::vector<ExactPlane> sides;         ///< outward: normal . x <= offset is inside
   std::vector<ShellTriangle> triangles;  ///< of a shell; none for a convex part
+};
+
+/// A triangle of a mesh from which faces of a substance that look the same way come.
+struct FaceOrigin {
+  Substance substance = 1;
+  Vec3l normal;  ///< outward
+  std::uint32_t triangle = 0;
 };
 
 /// The half-space z <= height.
@@ -50,6 +56,10 @@ struct Solids {
   /// All corners of shells' triangles, rounded; those in the middle of a face or of a straight edge
   /// matter only by that triangles share them.
   std::vector<Vec3d> nearPoints;
+  std::vector<FaceOrigin> origins;  ///< of solids that were read from a mesh
+
+  /// Shapes of the plane: all solids are upright prisms of one height, from 0 on.
+  bool flat = false;
 
   std::vector<std::string> substances;  ///< names; the first is "air"
   double unit = 1;                      ///< of the grid, world units

@@ -13,6 +13,8 @@
 #include "synth/continuous/exact_search.h"
 #include "synth/continuous/filling.h"
 #include "synth/continuous/grounding.h"
+#include "synth/continuous/jitter.h"
+#include "synth/continuous/mirror.h"
 
 namespace exemplar::continuous {
 namespace {
@@ -51,6 +53,7 @@ void describe(PolygonModel& model, const Solids& solids, const std::vector<Mater
   model.substances = solids.substances;
   model.looks = looks;
   model.size = size;
+  model.flat = solids.flat;
 }
 
 std::vector<double> countsOf(const std::vector<std::uint32_t>& figures, std::size_t size) {
@@ -85,7 +88,8 @@ class Synthesis {
         random_(options.seed, stream::kFigureChoice) {}
 
   ContinuousResult run(const Progress& progress) {
-    const PlaneSets planes = planesIn(lattice_, windowOf(lattice_, options_.size));
+    const ExactBox window = outerWindow(), inner = resultBox();
+    const PlaneSets planes = planesIn(lattice_, window, inner);
     const Centrals centrals(planes.normals);
     const FigureSet figures = extractFigures(example_, centrals, progress.part(0, 0.1));
     counts_ = exampleCounts(centrals, figures, progress.part(0.1, 0.2));
@@ -93,10 +97,13 @@ class Synthesis {
     const Arrangement arrangement(planes, centrals, options_.mostVertices,
                                   progress.part(0.2, 0.35));
     Puzzle puzzle = makePuzzle(arrangement, figures, example_.ground, progress.part(0.35, 0.4));
-    vertices_ = innerVertices(arrangement);
+    inner_ = vertices_ = innerVertices(arrangement);
     noteSizes(puzzle);
     restrictThin(puzzle, vertices_);
-    const Domains open = puzzle.domains;
+    if (options_.map)
+      guide_ = applyDensityMap(*options_.map, inner, example_.ground, puzzle, vertices_);
+    if (options_.groups > 0) planGrowth(puzzle);
+    Domains open = puzzle.domains;
     std::vector<std::vector<Allowed>> demands;
     for (const PlacedSubstance& placed : options_.placed)
       demands.push_back(allowedFor(puzzle, placed));
@@ -110,19 +117,62 @@ class Synthesis {
     if (result_.outcome != Outcome::Complete) return std::move(result_);
     if (grounded_) {
       result_.statistics.floating =
-          removeFloating(puzzle, allowed, vertices_, example_.ground->substance, puzzle.domains);
+          removeFloating(puzzle, allowed, inner_, example_.ground->substance, puzzle.domains);
+    }
+    if (growth_) {
+      result_.statistics.groups =
+          keepLargest(puzzle, allowed, inner_, *growth_, options_.groups, puzzle.domains);
     }
 
     const LabelFilling filling(puzzle, puzzle.domains, example_.ground);
     result_.statistics.shares =
         sharesOf(classes_, countsOf(figuresOf(arrangement, filling, figures), figures.size()));
-    result_.model = outline(arrangement, filling, progress.part(0.9, 1));
+    if (options_.open.any()) {
+      const CroppedFilling cropped(arrangement, filling, inner);
+      result_.model = outline(arrangement, cropped, progress.part(0.9, 1));
+    } else {
+      result_.model = outline(arrangement, filling, progress.part(0.9, 1));
+    }
     describe(result_.model, example_, looks_, options_.size);
+    if (options_.jitter > 0) {
+      jitterPlanes(result_.model, lattice_, inner, example_.ground, options_.jitter,
+                   Random(options_.seed, stream::kFigureChoice).fork(9001));
+    }
     result_.statistics.polygons = result_.model.polygons.size();
     return std::move(result_);
   }
 
  private:
+  /// The box of all vertices: that of the result, and more where it is cut out of something longer.
+  ExactBox outerWindow() const {
+    ExactBox window = windowOf(lattice_, options_.size);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!options_.open[axis]) continue;
+      window.low[axis] -= kMargin * lattice_.spacing[axis];
+      window.high[axis] += kMargin * lattice_.spacing[axis];
+    }
+    return window;
+  }
+  /// The box of the result, with one empty spacing on the sides that are not open.
+  ExactBox resultBox() const {
+    ExactBox box = windowOf(lattice_, options_.size);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!options_.open[axis]) continue;
+      box.low[axis] += lattice_.spacing[axis];
+      box.high[axis] -= lattice_.spacing[axis];
+    }
+    return box;
+  }
+
+  void planGrowth(const Puzzle& puzzle) {
+    std::optional<Substance> ground;
+    if (example_.ground) ground = example_.ground->substance;
+    growth_ = growthOf(puzzle, ground);
+    growth_->seeds = options_.groups;
+    const double empty = result_.statistics.exampleShares[static_cast<int>(FigureClass::Empty)];
+    growth_->share = std::min(1.0, (1 - empty) * options_.density);
+  }
+
   /// How often each figure is at an inner vertex of the lattice's planes around the example.
   std::vector<double> exampleCounts(const Centrals& centrals, const FigureSet& figures,
                                     const Progress& progress) {
@@ -219,7 +269,7 @@ class Synthesis {
   void learn(const Puzzle& puzzle, const Domains& consistent, const Progress& progress) {
     std::optional<Substance> ground;
     if (grounded_) ground = example_.ground->substance;
-    const LearnOptions options{options_.learning, ground, options_.density};
+    const LearnOptions options{options_.learning, ground, options_.density, options_.objectSize};
     const Random random(options_.seed, stream::kFigureLearning);
     constexpr double kPilot = 6000;  // vertices
     const double factor = std::sqrt(kPilot / static_cast<double>(vertices_.size()));
@@ -246,7 +296,37 @@ class Synthesis {
         learnWeights(pilot, pilot.domains, vertices, classes_, counts_, random, options, progress);
   }
 
-  void solve(Puzzle& puzzle, const Domains& open, const std::vector<std::vector<Allowed>>& demands,
+  /// How much of a solved puzzle is built, of the vertices that are searched.
+  double builtShare(const Puzzle& puzzle) const {
+    std::size_t built = 0;
+    for (const std::uint32_t v : vertices_) {
+      forEach(puzzle.domains[v],
+              [&](std::size_t l) { built += growth_->builtAt[puzzle.arrangement.kind(v)][l]; });
+    }
+    return static_cast<double>(built) /
+           static_cast<double>(std::max<std::size_t>(1, vertices_.size()));
+  }
+
+  /// Has a half of the vertices stand for all, in the puzzle and where no demand counts.
+  void restrictToHalf(Puzzle& puzzle, Domains& open) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!options_.mirror[axis]) continue;
+      const Mirror& mirror = mirrors_.emplace_back(puzzle, axis);
+      vertices_ = mirror.half(vertices_);
+      mirror.restrict(vertices_, puzzle.domains);
+      mirror.restrict(vertices_, open);
+    }
+  }
+  /// Gives all other vertices the images of those that were searched.
+  void completeImages(Domains& domains) const {
+    for (std::size_t n = mirrors_.size(); n-- > 0;) {
+      std::vector<std::uint32_t> half = inner_;
+      for (std::size_t m = 0; m <= n; ++m) half = mirrors_[m].half(half);
+      mirrors_[n].complete(half, domains);
+    }
+  }
+
+  void solve(Puzzle& puzzle, Domains& open, const std::vector<std::vector<Allowed>>& demands,
              const Progress& progress) {
     weights_.assign(puzzle.figures.size(), 1);
     Search::Marks marks(puzzle.arrangement.vertices());
@@ -257,21 +337,43 @@ class Synthesis {
     const std::int64_t budget = options_.budget > 0
                                     ? options_.budget
                                     : 1000 + static_cast<std::int64_t>(vertices_.size()) / 10;
+    if (options_.mirror.any()) restrictToHalf(puzzle, open);
     // `run` sees the weights through a view of the vector that `learn` has replaced.
     Search passes(puzzle, weights_, puzzle.domains, marks);
-    passes.begin(vertices_, 2);
+    if (guide_) passes.setGuide(&*guide_);
+    if (!passes.begin(vertices_, 2)) return explain(puzzle, open, demands);
+    const Domains consistent = growth_ ? puzzle.domains : Domains{0, 1};
+    std::optional<Domains> fullest;  // of grown results, which may stop early
+    double full = 0;
     for (int attempt = 0; attempt < options_.attempts && !options_.blocksOnly; ++attempt) {
       ++s.attempts;
       const double share = 0.3 / options_.attempts, from = 0.4 + share * attempt;
-      const Found found = passes.run(random_.fork(static_cast<std::uint64_t>(attempt)), budget,
-                                     progress.part(from, from + share));
+      const Random random = random_.fork(static_cast<std::uint64_t>(attempt));
+      const Progress part = progress.part(from, from + share);
+      const Found found =
+          growth_ ? passes.grow(*growth_, random, budget, part) : passes.run(random, budget, part);
       s.choices = passes.counts().choices;
       s.failures = passes.counts().failures;
       if (found == Found::Nothing) return explain(puzzle, open, demands);
+      if (found == Found::All && growth_) {
+        if (const double built = builtShare(puzzle); !fullest || built > full) {
+          full = built;
+          fullest = puzzle.domains;
+        }
+        if (full >= kFullyGrown * growth_->share) break;
+        puzzle.domains = consistent;
+        passes.begin(vertices_, 3 + static_cast<std::uint32_t>(attempt));
+        continue;
+      }
       s.whole = found == Found::All;
-      if (s.whole) return;
+      if (s.whole) break;
     }
-    const Outcome start = options_.blocks ? startOfBlocks(puzzle) : decide(puzzle, true);
+    const bool grown = fullest.has_value();
+    if (grown) puzzle.domains = std::move(*fullest);
+    s.whole = s.whole || grown;
+    if (s.whole) return completeImages(puzzle.domains);
+    const bool blocks = options_.blocks && mirrors_.empty();
+    const Outcome start = blocks ? startOfBlocks(puzzle) : decide(puzzle, true);
     if (start == Outcome::Impossible) return explain(puzzle, open, demands);
     if (start != Outcome::Complete) {
       result_.outcome = Outcome::Unfinished;
@@ -280,15 +382,18 @@ class Synthesis {
           "smaller `size`, or a larger `budget`";
       return;
     }
-    if (!options_.blocks) {
+    if (!blocks) {
       s.whole = true;
+      completeImages(puzzle.domains);
       return;
     }
     Domains labels = start_;
-    const BlockCounts counts = modifyInBlocks(
-        puzzle, weights_, labels, random_,
-        {.spacing = lattice_.spacing, .side = options_.block, .rounds = options_.rounds},
-        progress.part(0.7, 1));
+    const BlockCounts counts = modifyInBlocks(puzzle, weights_, labels, random_,
+                                              {.spacing = lattice_.spacing,
+                                               .side = options_.block,
+                                               .rounds = options_.rounds,
+                                               .guide = guide_ ? &*guide_ : nullptr},
+                                              progress.part(0.7, 1));
     puzzle.domains = std::move(labels);
     s.blocks = counts.blocks;
     s.blocksKept = counts.kept;
@@ -354,7 +459,10 @@ class Synthesis {
     std::vector<int> core;
     for (std::size_t d = 0; d < demands.size(); ++d) {
       core.push_back(exact.newDemand());
-      for (const Allowed& a : demands[d]) exact.addToDemand(core.back(), a.vertex, a.labels);
+      for (const Allowed& a : demands[d]) {
+        if (std::ranges::binary_search(vertices_, a.vertex))
+          exact.addToDemand(core.back(), a.vertex, a.labels);
+      }
     }
     if (exact.solve(core, kConflicts) != Outcome::Impossible) return;
     const auto keepUsed = [&] { std::erase_if(core, [&](int d) { return !exact.used(d); }); };
@@ -377,6 +485,10 @@ class Synthesis {
   }
 
   static constexpr std::int64_t kConflicts = 300'000;
+  /// What has grown to this share of what it should is not grown again.
+  static constexpr double kFullyGrown = 0.6;
+  /// Spacings beyond an open side: enough that its end has no influence on what is there.
+  static constexpr std::int64_t kMargin = 3;
 
   const Solids& example_;
   const std::vector<Material>& looks_;
@@ -385,10 +497,14 @@ class Synthesis {
   Random random_;
   std::vector<double> counts_;           // of figures in the example
   std::vector<FigureClass> classes_;     // of figures
-  std::vector<std::uint32_t> vertices_;  // inner ones
-  std::vector<double> weights_;          // of figures
-  bool grounded_ = false;                // nothing may hang in the air
-  Domains start_{0, 1};                  // of blocks
+  std::vector<std::uint32_t> inner_;     // vertices
+  std::vector<std::uint32_t> vertices_;  // those that are searched: the inner ones, or half of them
+  std::optional<Guide> guide_;
+  std::optional<Growth> growth_;
+  std::vector<Mirror> mirrors_;
+  std::vector<double> weights_;  // of figures
+  bool grounded_ = false;        // nothing may hang in the air
+  Domains start_{0, 1};          // of blocks
   ContinuousResult result_;
 };
 

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/axes.h"
 #include "core/outcome.h"
 #include "core/progress.h"
+#include "synth/continuous/density_map.h"
 #include "synth/continuous/polygons.h"
 #include "synth/continuous/search.h"
 #include "synth/continuous/solids.h"
@@ -51,6 +53,15 @@ struct ContinuousOptions {
   bool blocks = true;       ///< where no attempt succeeds
   std::vector<PlacedSubstance> placed;
   std::vector<Thickness> thin;
+  std::optional<DensityMap> map;  ///< where the result is full and where it is empty
+  /// Along which axes the result is cut out of something longer, without ends of its own; not z
+  /// where the example has a ground.
+  Axes open;
+  Axes mirror;  ///< along which the result is its own mirror image
+  /// At most how many connected groups what is built forms, grown from as many seeds; 0: any.
+  int groups = 0;
+  double objectSize = 1;  ///< how large solids are, in sizes of the example's, > 0
+  double jitter = 0;      ///< how far planes are moved out of their rows, half steps, 0..1
   /// Whether solids may hang in the air over the ground; by default, where some of the example do.
   std::optional<bool> floating;
   std::size_t mostVertices = 8'000'000;  ///< about 200 bytes each
@@ -60,7 +71,8 @@ struct ContinuousStatistics {
   std::size_t directions = 0, figures = 0, labels = 0, classes = 0;
   std::size_t vertices = 0, freeVertices = 0;
   std::int64_t choices = 0, failures = 0, attempts = 0, blocks = 0, blocksKept = 0, exact = 0,
-               floating = 0;  // pieces in the air that were removed
+               floating = 0,  // pieces in the air that were removed
+      groups = 0;             // connected ones, where their number was limited
   std::size_t polygons = 0;
   bool whole = false;                ///< in one pass, not in blocks
   Shares exampleShares{}, shares{};  ///< of classes of figures, at inner vertices

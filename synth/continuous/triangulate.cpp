@@ -12,6 +12,7 @@
 #include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "synth/continuous/polygons.h"
+#include "synth/continuous/touching.h"
 
 namespace exemplar::continuous {
 namespace {
@@ -293,6 +294,7 @@ TriangleMesh triangulate(const PolygonModel& model, Faces faces,
   };
   if (faces == Faces::Seen) {
     take([](const Polygon& polygon) { return polygon.outside(); });
+    separateTouching(mesh);
     return mesh;
   }
   for (std::size_t s = 1; s < model.substances.size(); ++s) {
@@ -301,6 +303,7 @@ TriangleMesh triangulate(const PolygonModel& model, Faces faces,
       return polygon.below == s ? 1 : polygon.above == s ? -1 : 0;
     });
   }
+  separateTouching(mesh);
   return mesh;
 }
 

@@ -84,6 +84,14 @@ std::vector<double> learnWeights(const Puzzle& puzzle, const Domains& consistent
                                  std::span<const double> counts, const Random& random,
                                  const LearnOptions& options, const Progress& progress) {
   Shares wanted = sharesOf(classes, counts);
+  // n times as large, a solid has n^3 times what is within, n^2 faces, n edges and as many corners.
+  double before = 0, after = 0;
+  for (int c = 1; c < kFigureClasses; ++c) {
+    before += wanted[c];
+    wanted[c] *= std::pow(options.objectSize, 1 - c);
+    after += wanted[c];
+  }
+  for (int c = 1; c < kFigureClasses; ++c) wanted[c] *= after > 0 ? before / after : 1;
   double full = 0;
   for (int c = 1; c < kFigureClasses; ++c) full += wanted[c] *= options.density;
   wanted[0] = std::max(0.0, 1 - full);

@@ -46,6 +46,9 @@ struct LearnOptions {
   /// Where given, trial results lose what is not joined to this ground (`removeFloating`).
   std::optional<Substance> ground;
   double density = 1;  ///< of all classes but the empty one, in shares of the example's, > 0
+  /// How large solids are, in sizes of the example's, > 0: the larger, the fewer corners, edges and
+  /// faces are around as much.
+  double objectSize = 1;
 };
 
 /// Weights of figures: how often each is in the example, times a factor for each class that is

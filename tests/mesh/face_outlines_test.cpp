@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -60,9 +62,39 @@ TEST(FaceOutlines, LeavesTrianglesWhereThereIsNoSimpleOutline) {
   const Sides box;
   EXPECT_EQ(faceOutlines(box.mesh, {}, 100).size(), 12u);
   EXPECT_EQ(faceOutlines(box.mesh, box.faces, 3).size(), 12u);
-  // All sides as one face: no outline at all.
-  const std::vector<std::uint32_t> one(12, 0);
-  EXPECT_EQ(faceOutlines(box.mesh, one, 100).size(), 12u);
+}
+
+TEST(FaceOutlines, CutsAFaceWithAHoleIntoFewPolygons) {
+  // A square with a square hole, in eight triangles around it.
+  TriangleMesh ring;
+  for (const double side : {3.0, 1.0})
+    for (int c = 0; c < 4; ++c)
+      ring.positions.push_back({c == 1 || c == 2 ? side : -side, c >= 2 ? side : -side, 0});
+  for (std::uint32_t c = 0; c < 4; ++c) {
+    const std::uint32_t next = (c + 1) % 4;
+    ring.triangles.push_back({c, next, 4 + next});
+    ring.triangles.push_back({c, 4 + next, 4 + c});
+  }
+  const auto outlines = faceOutlines(ring, std::vector<std::uint32_t>(8, 0), 100);
+  EXPECT_EQ(outlines.size(), 2u);
+  // None visits a corner twice, and together they have the area of the ring.
+  double area = 0;
+  for (const auto& outline : outlines) {
+    std::set<std::uint32_t> corners;
+    Vec3d sum;
+    const auto vertex = [&](std::size_t n) {
+      const TriangleCorner& c = outline[n % outline.size()];
+      return ring.triangles[c.triangle][c.corner];
+    };
+    for (std::size_t n = 0; n < outline.size(); ++n) {
+      corners.insert(vertex(n));
+      sum += cross(ring.positions[vertex(n)], ring.positions[vertex(n + 1)]);
+    }
+    EXPECT_EQ(corners.size(), outline.size());
+    EXPECT_GT(sum.z, 0);
+    area += sum.z / 2;
+  }
+  EXPECT_NEAR(area, 36 - 4, 1e-12);
 }
 
 TEST(WritePolygons, ReadsBackAsTheSameSolid) {
