@@ -3,19 +3,15 @@
 
 #include "synth/model/synthesize.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <numeric>
 
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "synth/model/anneal.h"
+#include "synth/model/arc_consistency.h"
 #include "synth/model/blocks.h"
-#include "synth/model/catalog.h"
 #include "synth/model/choose.h"
 #include "synth/model/explain.h"
 #include "synth/model/limits.h"
@@ -23,6 +19,7 @@
 #include "synth/model/problem.h"
 #include "synth/model/quilt_labels.h"
 #include "synth/model/start.h"
+#include "synth/model/stretch_example.h"
 #include "synth/model/whole.h"
 
 namespace exemplar {
@@ -49,58 +46,6 @@ void checkExamples(std::span<const LabelGrid> examples, const Adjacency& adjacen
   }
 }
 
-/// Takes from `base` what has no support (statement 3.6); false where a cell loses all of its
-/// labels. The sets that remain do not depend on the order of work, so pieces of the network come
-/// first, in parallel, and then what crosses from one to another.
-bool makeArcConsistent(const LabelNetwork& network, LabelSets& base, const Progress& progress) {
-  constexpr int kPiece = 8192;  // cells
-  const int pieces = (network.cells + kPiece - 1) / kPiece;
-  const auto copyBack = [&](const Catalog& catalog, int first) {
-    for (int c = 0; c < catalog.network().cells; ++c) {
-      std::copy(catalog.domain(c).begin(), catalog.domain(c).end(), base[first + c].begin());
-    }
-  };
-  std::atomic<bool> possible{true};
-  if (pieces > 1) {
-    tbb::enumerable_thread_specific<NetworkPart> parts([&] { return NetworkPart(network); });
-    parallelFor(0, static_cast<std::size_t>(pieces), 1, [&](std::size_t begin, std::size_t end) {
-      std::vector<std::int32_t> cells;
-      for (std::size_t piece = begin; piece < end && possible; ++piece) {
-        const int first = static_cast<int>(piece) * kPiece;
-        cells.resize(std::min(kPiece, network.cells - first));
-        std::iota(cells.begin(), cells.end(), first);
-        NetworkPart& part = parts.local();
-        part.select(cells);
-        Catalog catalog(part.network());
-        for (std::size_t c = 0; c < cells.size(); ++c) {
-          catalog.setDomain(static_cast<int>(c), base[cells[c]]);
-        }
-        if (catalog.propagateAll(progress)) {
-          copyBack(catalog, first);
-        } else {
-          possible = false;
-        }
-      }
-    });
-  }
-  if (!possible) return false;
-  Catalog catalog(network);
-  for (int c = 0; c < network.cells; ++c) catalog.setDomain(c, base[c]);
-  if (pieces == 1) {
-    if (!catalog.propagateAll(progress)) return false;
-  } else {
-    for (int c = 0; c < network.cells; ++c) {
-      bool between = false;
-      network.forEachNeighbor(c,
-                              [&](int n, int) { between = between || n / kPiece != c / kPiece; });
-      if (between) catalog.touch(c);
-    }
-    if (!catalog.propagate(progress)) return false;
-  }
-  copyBack(catalog, 0);
-  return true;
-}
-
 /// The grids that a labeling of the network describes.
 std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& example,
                                const std::vector<Label>& labels, const Progress& progress) {
@@ -123,6 +68,13 @@ std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& exa
                 }
               });
   return grids;
+}
+
+/// Whether a request is for a large result that is made up of windows, and nothing about it is to
+/// be proved from the labels that are left.
+bool soughtInWindows(const ModelOptions& options) {
+  return options.method == ModelMethod::Auto && !options.metropolis && canQuilt(options) &&
+         options.pins.empty() && options.counts.empty() && options.connected.empty();
 }
 
 /// How a result is annealed that windows of a smaller one have been laid in: only joints are left,
@@ -158,7 +110,8 @@ void matchStatistics(const ModelProblem& problem, const LabelSets& base,
 }
 
 Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-               ModelStatistics& statistics, const Progress& progress) {
+               std::span<const LabelGrid> examples, ModelStatistics& statistics,
+               const Progress& progress) {
   // Metropolis needs something to compare with.
   const ModelMethod method =
       problem.options().metropolis ? ModelMethod::Blocks : problem.options().method;
@@ -170,6 +123,16 @@ Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelCh
     return labeling;
   };
   if (method == ModelMethod::Whole) return whole(std::nullopt);
+  // Patches bring what is to be there: ground is enough to begin with. Where things run over the
+  // sides, though, patches have nothing to end them with: there has to be something to go on from.
+  const auto& sides = problem.options().sides;
+  const bool ends = std::none_of(sides.begin(), sides.begin() + 4,
+                                 [](const SideRule& s) { return s.kind == SideRule::Kind::Free; });
+  const bool patches = method == ModelMethod::Auto && problem.options().moves > 0;
+  if (patches && !ends && problem.options().size.z > 1) {
+    if (auto drawn = stretchExample(problem, base, chooser, examples, progress.part(0, 0.1)))
+      return {Outcome::Complete, std::move(*drawn), 1};
+  }
   if (method == ModelMethod::Auto && canQuilt(problem.options())) {
     // All that is to be there comes with windows of a smaller result.
     if (auto ground =
@@ -177,12 +140,7 @@ Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelCh
       return {Outcome::Complete, std::move(*ground), 1};
     done = 0.1;
   }
-  // Patches bring what is to be there: ground is enough to begin with. Where things run over the
-  // sides, though, patches have nothing to end them with: there has to be something to go on from.
-  const auto& sides = problem.options().sides;
-  const bool ends = std::none_of(sides.begin(), sides.begin() + 4,
-                                 [](const SideRule& s) { return s.kind == SideRule::Kind::Free; });
-  if (method == ModelMethod::Auto && problem.options().moves > 0 && ends) {
+  if (patches && ends) {
     const Progress first = progress.part(0, 0.2);
     Labeling plain =
         labelWhole(problem, base, chooser, statistics, first, problem.options().patience, true);
@@ -225,7 +183,9 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
 
   progress.report("removing labels without support", 0.03);
   LabelSets base = problem.domains(problem.demands(), progress);
-  const bool possible = makeArcConsistent(problem.network(), base, progress);
+  const bool possible =
+      (soughtInWindows(options) && makeConsistentByTile(problem, base, progress)) ||
+      makeArcConsistent(problem.network(), base, options.size.z * options.frames, progress);
   Labeling labeling{Outcome::Impossible, {}};
   if (possible) {
     if (const auto why = impossibleLimit(problem, base)) {
@@ -236,7 +196,8 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
     progress.report("counting neighbors in the example", 0.08);
     const LabelChooser chooser(problem, examples, progress);
     const double labeled = options.moves > 0 ? 0.3 : 0.85;
-    labeling = label(problem, base, chooser, result.statistics, progress.part(0.1, labeled));
+    labeling =
+        label(problem, base, chooser, examples, result.statistics, progress.part(0.1, labeled));
     if (labeling.outcome == Outcome::Complete && options.moves > 0) {
       matchStatistics(problem, base, chooser, examples, labeling.labels, result.statistics,
                       progress.part(labeled, 0.85));
