@@ -192,7 +192,7 @@ class Synthesis {
   void makeLevel(int l, Grid<float>& heights, Grid<HeightOrigin>& origins, SynthesizedTerrain& made,
                  const Progress& progress) {
     const HeightLevel& level = pyramid_[static_cast<std::size_t>(l)];
-    const LevelControl& control = controls_[static_cast<std::size_t>(l)];
+    LevelControl& control = controls_[static_cast<std::size_t>(l)];
     const Pixel size = sizeAt(l);
     const bool coarsest = l + 1 == levels_;
     HeightField field(size.x, size.y,
@@ -249,7 +249,12 @@ class Synthesis {
     steer(l, heights);
     progress.report("letting water run", 0.9);
     const WaterBodies water = hasWater(level) ? settled(l, heights, origins) : WaterBodies{};
+    const bool guided = l == guideLevel_ && !control.guide.empty();
+    const Grid<float> before = guided ? heights : Grid<float>{};
     cut(l, heights, l > 0 ? kFillBefore : kFillAtLast, water, made, progress);
+    // Finer resolutions follow the guide with its outlets, or they would close them again.
+    for (std::size_t s = 0; s < before.count(); ++s)
+      control.guide[s] -= std::max(0.0f, before[s] - heights[s]);
   }
 
   static bool hasWater(const HeightLevel& level) { return !level.water.empty(); }
