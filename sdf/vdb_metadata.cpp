@@ -10,10 +10,10 @@ namespace exemplar {
 namespace {
 
 // A .vdb file begins with 8 bytes of magic number, the file's version, the library's two, one byte
-// for "says where grids end" and an id.
-constexpr std::size_t kVersion = 8, kOffsets = 20, kMetadata = 57;
-// The versions that OpenVDB writes since 3.0; metadata is laid out alike in them.
-constexpr std::uint32_t kFirstVersion = 222, kLastVersion = 224;
+// for "says where grids end" and an id; before version 222 a byte for "compressed" stands between
+// these two, which each grid says of itself since.
+constexpr std::size_t kVersion = 8, kOffsets = 20, kId = 21, kIdLength = 36;
+constexpr std::uint32_t kFirstVersion = 220, kOwnCompression = 222;
 
 /// Goes through a file; every step says whether it stayed within.
 class Walk {
@@ -58,8 +58,10 @@ bool hasSoundMetadata(std::string_view bytes) {
   Walk walk(bytes);
   std::uint32_t version = 0, grids = 0;
   if (!walk.goTo(kVersion) || !walk.read(version)) return false;
-  if (version < kFirstVersion || version > kLastVersion) return true;
-  if (!walk.goTo(kMetadata) || !walk.skipMetadata() || !walk.read(grids)) return false;
+  const bool own = version >= kOwnCompression;
+  if (version < kFirstVersion || !walk.goTo(kId + (own ? 0 : 1) + kIdLength) ||
+      !walk.skipMetadata() || !walk.read(grids))
+    return false;
   const bool saysEnds = bytes[kOffsets] != 0;
   for (std::uint32_t grid = 0; grid < grids; ++grid) {
     // Name, type, name of the grid whose values it shares; where it, its values and its end are.
@@ -69,7 +71,7 @@ bool hasSoundMetadata(std::string_view bytes) {
     }
     if (!walk.read(begin) || !walk.read(values) || !walk.read(end)) return false;
     std::uint32_t compression = 0;
-    if (!walk.read(compression) || !walk.skipMetadata()) return false;
+    if ((own && !walk.read(compression)) || !walk.skipMetadata()) return false;
     if (!saysEnds) return true;
     if (!walk.goTo(end)) return false;
   }

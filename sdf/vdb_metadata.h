@@ -9,8 +9,8 @@ namespace exemplar {
 
 /// Whether the sizes that a .vdb file states for its names and its metadata lie within the file.
 /// OpenVDB takes memory of such a size before it reads, up to 4 GB of it. Looks at the file's
-/// metadata, and at each grid's as far as the file says where grids end; files of versions that are
-/// laid out otherwise count as sound. Costs O(metadata).
+/// metadata, and at each grid's as far as the file says where grids end. Files older than OpenVDB's
+/// first release (version 220, 2012) are not sound. Costs O(metadata).
 bool hasSoundMetadata(std::string_view bytes);
 
 }  // namespace exemplar

@@ -346,6 +346,11 @@ TEST(VdbFile, RefusesSizesOfMetadataBeyondTheFile) {
     }
   }
   EXPECT_GT(tried, 4);
+  std::string old = whole;
+  old[8] = 0;  // the file's version, which lays out what follows
+  test::writeBytes(folder / "old.vdb", old);
+  EXPECT_THAT(inputError([&] { readVdb(folder / "old.vdb"); }),
+              HasSubstr("its metadata goes beyond it"));
 }
 
 TEST(VdbFile, RefusesWhatIsNoVdbFile) {
