@@ -43,12 +43,14 @@ enum Name : std::uint32_t {
   kFigureChoice = 0x46494731,    ///< which figure a vertex takes
   kFigureLearning = 0x46494732,  ///< trial results in which weights are learned
   // sdf
-  kDetailPlaces = 0xde7a,     ///< where a surface is looked at for its detail
-  kPatchMoves = 0x4C424C34,   ///< which patch of the example goes where
-  kPatchRims = 0x4C424C36,    ///< which labels close the gap around a patch
-  kPatchPlaces = 0x4C424C35,  ///< where patches go that are tried at once
-  kQuiltPlaces = 0x4C424C37,  ///< where windows of a smaller result come from
-  kQuiltRims = 0x4C424C38,    ///< which labels close the gaps around them
+  kDetailPlaces = 0xde7a,      ///< where a surface is looked at for its detail
+  kPatchMoves = 0x4C424C34,    ///< which patch of the example goes where
+  kPatchRims = 0x4C424C36,     ///< which labels close the gap around a patch
+  kPatchPlaces = 0x4C424C35,   ///< where patches go that are tried at once
+  kQuiltPlaces = 0x4C424C37,   ///< where windows of a smaller result come from
+  kQuiltRims = 0x4C424C38,     ///< which labels close the gaps around them
+  kWorldStart = 0x574C4431,    ///< of what a world begins with
+  kWorldWindows = 0x574C4432,  ///< of each window of a world
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,

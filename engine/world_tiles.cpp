@@ -149,7 +149,10 @@ MadeTiles makeTiles(const World& world, const PlaneBox& tiles, const MakeOptions
     verified = true;
     // Together where most are wanted; a few alone.
     std::optional<Result> whole;
-    if (2 * static_cast<std::int64_t>(work.size()) >= job.columns()) whole = world.tiles(job);
+    const double done =
+        static_cast<double>(state.there + state.made) / static_cast<double>(state.all);
+    if (2 * static_cast<std::int64_t>(work.size()) >= job.columns())
+      whole = world.tiles(job, progress.part(done, done));
     const Progress hearing([&](std::string_view, double) { progress.check(); });
     parallelFor(0, work.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n) {

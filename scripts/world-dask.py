@@ -13,6 +13,7 @@ minute, with the command that goes on. Exit status: 0 all tiles are there; 3 som
 """
 
 import argparse
+import asyncio
 import json
 import os
 import shlex
@@ -33,8 +34,15 @@ def run(command):
     return done.returncode, lines[-1] if lines else ""
 
 
+def lost(resume):
+    """Ends the program, whose scheduler is gone."""
+    print("world-dask: the scheduler is lost; what was made is there. Go on with:\n  " + resume,
+          file=sys.stderr, flush=True)
+    os._exit(1)
+
+
 class Watchdog(threading.Thread):
-    """Ends the program where the scheduler is not heard of for half a minute: a client would wait."""
+    """Notices that the scheduler is not heard of for half a minute: a client would wait."""
 
     def __init__(self, client, resume):
         super().__init__(daemon=True)
@@ -46,9 +54,7 @@ class Watchdog(threading.Thread):
             ask.start()
             ask.join(5)
             if self.client.status not in ("running", "connecting") or time.monotonic() - self.heard > 20:
-                print("world-dask: the scheduler is lost; what was made is there. Go on with:\n  "
-                      + self.resume, file=sys.stderr, flush=True)
-                os._exit(1)
+                lost(self.resume)
             time.sleep(2)
 
     def ask(self):
@@ -82,7 +88,7 @@ def main():
         return 2
     world = os.path.abspath(given.world)
     plan = subprocess.run([given.exemplar, "world", "plan", world, "--region", given.region, "--as", "json",
-                           "--formats", given.formats, "--job", str(given.job)],
+                           "--formats", given.formats, "--job", str(given.job), "--progress", "none"],
                           stdout=subprocess.PIPE, text=True)
     if plan.returncode:
         return plan.returncode
@@ -94,7 +100,8 @@ def main():
     # A worker that dies takes its job along; that is no fault of the job.
     client = distributed.Client(cluster or given.scheduler)
     client.run_on_scheduler(lambda dask_scheduler: setattr(dask_scheduler, "allowed_failures", 10))
-    Watchdog(client, shlex.join(sys.argv)).start()
+    resume = shlex.join(sys.argv)
+    Watchdog(client, resume).start()
     begun, done, bad = time.monotonic(), 0, []
     futures = []
     for number, job in enumerate(jobs):
@@ -105,7 +112,9 @@ def main():
     for future in distributed.as_completed(futures):
         try:
             status, line = future.result()
-        except Exception as error:
+        except (Exception, asyncio.CancelledError) as error:
+            if future.status in ("cancelled", "lost"):  # nobody here cancels
+                lost(resume)
             status, line = 3, str(error)
         if status:
             bad.append((future.key, line))

@@ -24,9 +24,6 @@
 #include "synth/model/patch_move.h"
 
 namespace exemplar {
-namespace stream {
-constexpr std::uint32_t kWorldStart = 0x574C4431, kWorldWindows = 0x574C4432;
-}
 namespace {
 
 /// Columns along each side of the labeling that a world begins with.
@@ -82,7 +79,10 @@ void requireLocal(const ModelOptions& o) {
   const std::string whole = "speaks of a whole result, and a world has no end";
   if (!o.counts.empty()) refuse("count", whole);
   if (!o.connected.empty()) refuse("connect", whole);
-  if (o.symmetry.any()) refuse("mirror", whole);
+  const ModelSymmetry& symmetry = o.symmetry;
+  if (symmetry.mirrorX || symmetry.mirrorY) refuse("mirror", whole);
+  if (symmetry.turns > 1) refuse("turns", whole);
+  if (symmetry.any()) refuse("copies", whole);
   if (o.periodic.any()) refuse("periodic", "a world does not repeat");
   if (o.frames > 1 || o.loop) refuse("frames", "a world does not change over time");
   if (o.metropolis) refuse("metropolis", "windows of a world are not modified so");

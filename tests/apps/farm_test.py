@@ -63,6 +63,7 @@ def farm(folder):
         return lambda: len(tiles(world)) >= count or client.poll() is not None
 
     wait_for("quarter", made(TILES // 4), 120)
+    assert client.poll() is None, client.communicate()[1]
     first.kill()
     wait_for("half", made(TILES // 2), 120)
     start(*worker)
@@ -93,7 +94,7 @@ def farm(folder):
                    check=True)
 
 
-with tempfile.TemporaryDirectory(prefix="exemplar_farm_") as name:
+with tempfile.TemporaryDirectory(prefix="exemplar_farm_", ignore_cleanup_errors=True) as name:
     try:
         farm(pathlib.Path(name))
     finally:
