@@ -5,12 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "engine/engines.h"
 #include "engine/target_surface.h"
 #include "engine/words.h"
+#include "measure/surface_likeness.h"
 #include "synth/geometry/quilting/repetition.h"
 #include "synth/surface/synthesize.h"
 
@@ -28,6 +34,7 @@ struct EngineOptions {
   Base base = Base::None;
   bool baseGiven = false;
   std::string strokes;
+  bool likeness = false;
 };
 
 const SettingTable<EngineOptions>& table() {
@@ -65,13 +72,16 @@ const SettingTable<EngineOptions>& table() {
       settingRow<O>("strokes", &O::strokes,
                     "a .obj with lines on the surface that the example's y follows"),
       settingRow<O>(
-          "symmetry", [](O & o) -> auto& { return o.surface.symmetry; },
+          "turns", [](O & o) -> auto& { return o.surface.symmetry; },
           "how often the example may be turned within once around: 1, 2, 4 or 6", {1, 6}, "",
           "found from the example"),
       settingRow<O>(
           "stretch", [](O & o) -> auto& { return o.surface.stretch; },
           "how much nearly all of a copied part may be stretched; less makes parts smaller",
-          {1.02, 2})};
+          {1.02, 2}),
+      settingRow<O>("likeness", &O::likeness,
+                    "also measure how alike pieces of the result, laid flat again, are to the "
+                    "example")};
   return settings;
 }
 
@@ -110,6 +120,56 @@ void report(const surface::SurfaceFigures& f, Result& result) {
         "on " + percent(f.steepShare) +
         " of the surface the example is too high for how much the surface bends: it is cut in "
         "folds and drawn apart on ridges; a smaller `span` or `height` would fit");
+}
+
+/// Figures of the result's pieces, laid flat again.
+void addLikeness(const surface::SurfaceResult& made, const Array3D<float>& example, Result& result,
+                 const Progress& progress) {
+  if (made.unrolled.patches.empty()) {
+    result.warnings.push_back(
+        "`likeness`: no piece of the surface is large and smooth enough to be laid flat, so there "
+        "are no figures");
+    return;
+  }
+  const int turns = made.figures.symmetry == 6 ? 2 : made.figures.symmetry;
+  const SurfaceLikeness likeness = surfaceLikeness(made.unrolled.patches, example, turns, progress);
+  result.statistics.emplace_back("lp_dense", likeness.likeness);
+  result.statistics.emplace_back("coverage", likeness.coverage);
+  result.statistics.emplace_back("mean_iou", likeness.meanIou);
+  result.statistics.emplace_back("windows", likeness.windows);
+  result.statistics.emplace_back("skipped_patches", made.unrolled.skipped);
+}
+
+/// The lines of an .obj as polylines, its axes taken as a mesh's are.
+std::vector<std::vector<Vec3d>> readStrokes(const std::string& path, UpAxis up) {
+  const std::string text = readFile(path);
+  std::vector<Vec3d> points;
+  std::vector<std::vector<Vec3d>> lines;
+  std::istringstream rows(text);
+  for (std::string row; std::getline(rows, row);) {
+    std::istringstream words(row);
+    std::string kind;
+    words >> kind;
+    if (kind == "v") {
+      Vec3d p;
+      if (!(words >> p.x >> p.y >> p.z) || !isFinite(p))
+        throw InputError("`strokes` " + path + ": a vertex has no three numbers");
+      points.push_back(up == UpAxis::Z ? p : Vec3d{p.x, -p.z, p.y});
+    } else if (kind == "l") {
+      std::vector<Vec3d> line;
+      for (std::string word; words >> word;) {
+        const long n = std::strtol(word.c_str(), nullptr, 10);
+        const long at = n < 0 ? static_cast<long>(points.size()) + n : n - 1;
+        if (at < 0 || at >= static_cast<long>(points.size()))
+          throw InputError("`strokes` " + path + ": a line names vertex " + word +
+                           ", which is not there");
+        line.push_back(points[static_cast<std::size_t>(at)]);
+      }
+      if (line.size() > 1) lines.push_back(std::move(line));
+    }
+  }
+  if (lines.empty()) throw InputError("`strokes` " + path + ": there are no lines (l ...) in it");
+  return lines;
 }
 
 class SurfaceEngine final : public Engine {
@@ -155,7 +215,7 @@ class SurfaceEngine final : public Engine {
     EngineOptions options;
     table().apply(request.settings, options);
     if (options.surface.symmetry == 3 || options.surface.symmetry == 5)
-      throw InputError("`symmetry` " + std::to_string(*options.surface.symmetry) +
+      throw InputError("`turns` " + std::to_string(*options.surface.symmetry) +
                        ": expected 1, 2, 4 or 6");
   }
   Result synthesize(std::span<const Example> examples, const Request& request,
@@ -167,6 +227,8 @@ class SurfaceEngine final : public Engine {
         targetSurface(*request.on, request.reading.mesh, &result.warnings, progress.part(0, 0.05));
     surface::SurfaceOptions& surface = options.surface;
     surface.seed = request.seed;
+    if (!options.strokes.empty())
+      surface.strokes = readStrokes(options.strokes, request.reading.mesh.up);
     if (options.baseGiven) surface.base = options.base;
     switch (options.along) {
       case Along::X:
@@ -188,12 +250,15 @@ class SurfaceEngine final : public Engine {
     Array3D<float> values = example.values;
     for (float& v : values.values()) v /= static_cast<float>(example.voxelSize);
     surface.repetition = findRepetition(values).basis;
-    surface::SurfaceResult made =
-        surface::synthesizeOnSurface(example, on, surface, progress.part(0.05, 1));
+    constexpr int kPatches = 60;
+    if (options.likeness) surface.patches = kPatches;
+    surface::SurfaceResult made = surface::synthesizeOnSurface(
+        example, on, surface, progress.part(0.05, options.likeness ? 0.95 : 1));
     result.statistics = {{"example_samples", example.size()},
                          {"result_samples", made.field.size()},
                          {"voxel_size", made.field.voxelSize}};
     report(made.figures, result);
+    if (options.likeness) addLikeness(made, values, result, progress.part(0.95, 1));
     result.data = std::move(made.field);
     result.origins = std::move(made.origins);
     result.originMap = std::move(made.originMap);

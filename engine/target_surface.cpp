@@ -74,16 +74,14 @@ TriangleMesh targetSurface(const Source& source, const MeshFileOptions& options,
                        " triangles are there twice; one of each is taken");
   if (mesh.triangles.empty())
     throw InputError("`on`: " + source.name() + " has no triangle with area");
-  const MeshHealth before = meshHealth(mesh);
-  if (!before.manifold() || !before.oriented()) {
-    makeManifold(mesh, {.repairDegenerate = false}, progress.part(0.5, 1));
-    if (mesh.triangles.empty())
-      throw InputError("`on`: " + source.name() +
-                       " encloses nothing: all of its triangles lie back to back");
+  const ManifoldReport cut = makeManifold(mesh, {.repairDegenerate = false}, progress.part(0.5, 1));
+  if (mesh.triangles.empty())
+    throw InputError("`on`: " + source.name() +
+                     " encloses nothing: all of its triangles lie back to back");
+  if (cut.splitVertices > 0 || cut.splitEdges > 0)
     warn(warnings, source.name() +
                        ": the surface is no manifold, or not turned one way; it is cut where its "
                        "parts do not go together, and rows may break there");
-  }
   const MeshHealth health = meshHealth(mesh);
   if (health.closed() && health.signedVolume < 0) {
     for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);

@@ -16,7 +16,9 @@ namespace exemplar::surface {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kIterations = 20, kRelaxations = 30;
+constexpr int kIterations = 20, kSpreadings = 15, kRelaxations = 30;
+/// How far phases spread in one of these, in the shortest period.
+constexpr double kSpread = 1.0 / 3;
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
@@ -44,8 +46,13 @@ std::vector<Coordinates::Step> rawSteps(const Sheet& sheet, const DirectionField
 /// cosine and sine of each.
 class StripeProblem {
  public:
-  StripeProblem(const Sheet& sheet, const Coordinates& coordinates, int family, int families)
-      : sheet_(sheet), coordinates_(coordinates), family_(family), families_(families) {}
+  StripeProblem(const Sheet& sheet, const Coordinates& coordinates, int family, int families,
+                double shortest)
+      : sheet_(sheet),
+        coordinates_(coordinates),
+        family_(family),
+        families_(families),
+        shortest_(shortest) {}
 
   Vector solve(const Progress& progress) const {
     const Eigen::Index size = 2 * families_;
@@ -86,6 +93,17 @@ class StripeProblem {
       u = solver.solve(Vector(mass.cwiseProduct(u)));
       u /= std::sqrt(u.cwiseAbs2().dot(mass));
     }
+    // Such an eigenvector is nearly nothing where the field is hard to follow, and its phases there
+    // are those of elsewhere, gone on. With a length of 1 at every node, spread over a part of a
+    // period and made so again, rows begin and end where they must.
+    const double spread = kSpread * shortest_;
+    for (Eigen::Index k = 0; k < n; ++k) matrix.coeffRef(k, k) += mass[k] / (spread * spread);
+    solver.factorize(matrix);
+    for (int i = 0; i < kSpreadings; ++i) {
+      progress.check();
+      normalizeAll(u);
+      u = solver.solve(Vector(mass.cwiseProduct(u)));
+    }
     relax(u);
     return u;
   }
@@ -119,6 +137,21 @@ class StripeProblem {
     return turn * on;
   }
 
+  void normalize(Vector& u, Eigen::Index at) const {
+    for (Eigen::Index f = at; f < at + 2 * families_; f += 2) {
+      const double r = std::hypot(u[f], u[f + 1]);
+      if (r == 0) {
+        u[f] = 1;
+      } else {
+        u[f] /= r;
+        u[f + 1] /= r;
+      }
+    }
+  }
+  void normalizeAll(Vector& u) const {
+    for (Eigen::Index at = 0; at < u.size(); at += 2 * families_) normalize(u, at);
+  }
+
   /// Phases of length 1, each moved to the mean of what its neighbors say, in turn.
   void relax(Vector& u) const {
     const auto size = static_cast<Eigen::Index>(2 * families_);
@@ -126,19 +159,8 @@ class StripeProblem {
     parallelFor(0, moves.size(), 1024, [&](std::size_t begin, std::size_t end) {
       for (std::size_t e = begin; e < end; ++e) moves[e] = moveAlong(e);
     });
-    const auto normalize = [&](Eigen::Index v) {
-      for (Eigen::Index f = 0; f < size; f += 2) {
-        const double r = std::hypot(u[v + f], u[v + f + 1]);
-        if (r == 0) {
-          u[v + f] = 1;
-        } else {
-          u[v + f] /= r;
-          u[v + f + 1] /= r;
-        }
-      }
-    };
     const auto nodes = static_cast<std::uint32_t>(sheet_.positions.size());
-    for (std::uint32_t v = 0; v < nodes; ++v) normalize(v * size);
+    normalizeAll(u);
     for (int round = 0; round < kRelaxations; ++round) {
       for (std::uint32_t v = 0; v < nodes; ++v) {
         Eigen::Vector4d sum = Eigen::Vector4d::Zero();
@@ -154,7 +176,7 @@ class StripeProblem {
           }
         }
         for (Eigen::Index r = 0; r < size; ++r) u[v * size + r] = sum[r];
-        normalize(v * size);
+        normalize(u, v * size);
       }
     }
   }
@@ -162,16 +184,20 @@ class StripeProblem {
   const Sheet& sheet_;
   const Coordinates& coordinates_;
   int family_, families_;
+  double shortest_;  // of the periods, world units
 };
 
-void findPhases(const Sheet& sheet, Coordinates& c, const Progress& progress) {
+void findPhases(const Sheet& sheet, Coordinates& c, double sample, const Progress& progress) {
   const int periods = c.lattice.periods;
   const bool together = c.symmetry == 4;
   const int problems = together ? 1 : periods, families = together ? 2 : 1;
+  const double first = length(c.lattice.first), second = length(c.lattice.second);
+  const double shortest = sample * (periods > 1 ? std::min(first, second) : first);
   std::vector<Vector> solutions(static_cast<std::size_t>(problems));
   parallelFor(0, solutions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
-      solutions[p] = StripeProblem(sheet, c, static_cast<int>(p), families).solve(progress);
+      solutions[p] =
+          StripeProblem(sheet, c, static_cast<int>(p), families, shortest).solve(progress);
   });
   c.phases.resize(sheet.positions.size());
   for (std::size_t v = 0; v < c.phases.size(); ++v) {
@@ -230,10 +256,12 @@ Coordinates integrate(const Sheet& sheet, const DirectionField& field, const Lat
   c.symmetry = field.symmetry;
   c.lattice = lattice;
   c.setTurns();
+  c.singular.assign(sheet.triangles.size(), 0);
+  for (const Singularity& s : field.singularities) c.singular[s.triangle] = 1;
   c.steps = rawSteps(sheet, field, lattice.basis().inverse(), sample);
   if (lattice.periods > 0) {
     progress.report("laying the example's periods out", 0);
-    findPhases(sheet, c, progress);
+    findPhases(sheet, c, sample, progress);
     findDislocations(sheet, c);
   }
   progress.report("laying the example's periods out", 1);

@@ -30,6 +30,7 @@ struct Coordinates {
   std::vector<Step> steps;                  ///< of the sheet's edges
   std::vector<Vec2d> phases;                ///< n where the lattice has periods, else none: 0..1
   std::vector<std::uint32_t> dislocations;  ///< triangles around which phases do not close
+  std::vector<std::uint8_t> singular;       ///< m: whether directions turn around a triangle
 
   /// What a step counted in the direction named at a node is in one that is `turns` turns further
   /// back.
@@ -46,7 +47,8 @@ struct Coordinates {
 /// Integrates the field: a sample of the example is `sample` long on the surface. With periods,
 /// phases are the eigenvectors of the smallest eigenvalue of the energy of Knöppel, Crane, Pinkall,
 /// Schröder ("Stripe patterns on surfaces", SIGGRAPH 2015, doi:10.1145/2767000, section 3), one for
-/// each period, together where the field's turns exchange them; then each phase moves to where its
+/// each period, together where the field's turns exchange them. Phases then spread with length 1 at
+/// every node (steps of a Ginzburg-Landau flow), and each moves to where its
 /// neighbors want it.
 ///
 /// `field.symmetry` is 1 or 2 with periods, or 4 where both are as long and across each other. The

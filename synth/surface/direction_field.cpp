@@ -143,7 +143,7 @@ int DirectionField::turns(const Sheet::Edge& edge) const {
 
 DirectionField smoothestField(const Sheet& sheet, int symmetry, const Guidance* guidance,
                               const Progress& progress) {
-  if (symmetry < 1 || symmetry > 6) throw InputError("`symmetry` must be 1, 2, 4 or 6");
+  if (symmetry < 1 || symmetry > 6) throw InputError("`turns` must be 1, 2, 4 or 6");
   DirectionField field;
   field.symmetry = symmetry;
   field.angle.assign(sheet.positions.size(), 0);

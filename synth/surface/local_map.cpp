@@ -187,7 +187,7 @@ LocalMap LocalMapper::map(std::uint32_t seed, std::vector<StretchShare>* stretch
   for (std::uint32_t a = 0; a < count; ++a) {
     for (const std::uint32_t triangle : sheet_.trianglesAt(whole.nodes[a])) {
       std::array<std::uint32_t, 3> k{};
-      bool there = true;
+      bool there = !c.singular[triangle];
       for (int corner = 0; corner < 3 && there; ++corner) {
         const auto found = disc.number.find(sheet_.triangles[triangle][corner]);
         there = found != disc.number.end();
@@ -200,6 +200,8 @@ LocalMap LocalMapper::map(std::uint32_t seed, std::vector<StretchShare>* stretch
         there = joined(whole, k[corner], k[(corner + 1) % 3], {next, e, forward});
       }
       if (!there) continue;
+      const Vec2d u = whole.at[k[1]] - whole.at[k[0]], v = whole.at[k[2]] - whole.at[k[0]];
+      if (!(u.x * v.y - u.y * v.x > 0)) continue;  // turned over
       ++wholeTriangles[a];
       const double farthest = std::max({far(k[0]), far(k[1]), far(k[2])});
       farthestAround[a] = std::max(farthestAround[a], farthest);

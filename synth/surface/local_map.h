@@ -21,7 +21,8 @@ struct LocalMap {
   std::vector<std::uint32_t> nodes;  ///< ascending
   std::vector<Vec2d> at;             ///< their places, samples of the example; the seed's is near 0
   std::vector<std::uint8_t> turns;   ///< of the direction named there against the map's
-  /// Whether all triangles around a node are in the map: only such nodes can show it.
+  /// Whether all triangles around a node are in the map, none of them singular or turned over: only
+  /// such nodes can show it.
   std::vector<std::uint8_t> inner;
   double radius = 0;  ///< samples
 

@@ -48,7 +48,7 @@ void check(const SurfaceOptions& options) {
     throw InputError("`stretch` must be 1.02 to 2");
   if (options.symmetry && *options.symmetry != 1 && *options.symmetry != 2 &&
       *options.symmetry != 4 && *options.symmetry != 6)
-    throw InputError("`symmetry` " + std::to_string(*options.symmetry) + ": expected 1, 2, 4 or 6");
+    throw InputError("`turns` " + std::to_string(*options.symmetry) + ": expected 1, 2, 4 or 6");
 }
 
 /// The value above which `share` of the area is.
@@ -199,6 +199,17 @@ SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMe
                        progress.part(0.78, 1));
   figures.bandSamples = band.samples;
   stage("band");
+  if (options.patches > 0) {
+    UnrollOptions unrolling;
+    unrolling.patches = options.patches;
+    unrolling.layers = slab.size().z;
+    unrolling.sample = sample;
+    unrolling.zero = band.zero;
+    unrolling.height = options.height;
+    unrolling.seed = options.seed;
+    result.unrolled = unroll(sheet, field, coordinates.dislocations, band.field, unrolling);
+    stage("unrolling");
+  }
   result.field = std::move(band.field);
   result.origins = std::move(band.origins);
   result.originMap = std::make_shared<const SurfaceOrigins>(

@@ -20,6 +20,7 @@
 #include "synth/surface/placements.h"
 #include "synth/surface/sheet.h"
 #include "synth/surface/slab.h"
+#include "synth/surface/unrolled.h"
 
 namespace exemplar::surface {
 
@@ -39,6 +40,8 @@ struct SurfaceOptions {
   /// Lines that the example's y follows, in the surface's coordinates.
   std::vector<std::vector<Vec3d>> strokes;
   double stretch = 1.15;  ///< of nearly all of a placement, at most; 1.02..2
+  /// How many pieces of the result are laid flat again, to be compared with the example; >= 0.
+  int patches = 0;
   /// Steps after which the example repeats, samples; see `findRepetition`.
   std::vector<Vec3d> repetition;
 };
@@ -65,6 +68,7 @@ struct SurfaceResult {
   Origins origins;  ///< the nearest sample of the example, for each in the band
   std::shared_ptr<const OriginMap> originMap;
   SurfaceFigures figures;
+  Unrolled unrolled;  ///< where patches were asked for
 };
 
 /// Lays an example on a surface: "geometry synthesis over arbitrary topology surfaces" (Lagae,

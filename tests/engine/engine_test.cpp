@@ -15,6 +15,7 @@
 #include "engine/engines.h"
 #include "engine/measured.h"
 #include "engine/realize.h"
+#include "mesh/primitives.h"
 #include "tests/engine/examples.h"
 #include "voxelize/violations.h"
 
@@ -75,6 +76,11 @@ Request smallRequest(const Engine& engine, std::uint64_t seed = 0) {
                         : engine.form() == Form::Heights ? Vec3i{72, 60, 1}
                                                          : Vec3i{20, 10, 4};
   request.seed = seed;
+  if (engine.name() == "surface") {
+    request.extent = {};
+    request.on = Source::of(makeSphere({0, 0, 0}, 12, 6));
+    request.settings = {{"span", "24"}};
+  }
   if (engine.name() == "blocks") request.settings = {{"block", "8"}};
   if (engine.form() == Form::Map) request.settings = {{"layers", "2"}, {"neighborhood", "5"}};
   return request;
@@ -92,8 +98,8 @@ TEST(Engines, AreFoundByNameAndByWhatTheExampleIs) {
   EXPECT_EQ(engineFor(Source::of(waves(20, 20))).name(), "terrain");
   EXPECT_THAT([] { engineNamed("best"); },
               ThrowsMessage<InputError>(HasSubstr(
-                  "expected geometry, quilting, voting, blocks, model, continuous, layered or "
-                  "terrain")));
+                  "expected geometry, quilting, voting, blocks, model, continuous, layered, "
+                  "terrain or surface")));
 }
 
 TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
@@ -104,6 +110,14 @@ TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
     const Result result = runOn(*engine, example, request);
     ASSERT_EQ(result.outcome, Outcome::Complete) << result.why;
     EXPECT_EQ(result.engine, engine->name());
+    if (engine->name() == "surface") {
+      // It is bent, so that samples are mixed; whatever it is, it is solid around the ball.
+      EXPECT_TRUE(result.originMap);
+      EXPECT_TRUE(realize(result, {&example, 1}).health.closed());
+      const Vec3i about = engine->extentOf({&example, 1}, request);
+      EXPECT_LT(std::abs(about.x - result.field().size().x), 12);
+      continue;
+    }
     EXPECT_EQ(engine->extentOf({&example, 1}, request), *request.extent.size);
     if (engine->form() == Form::Polygons) {
       EXPECT_EQ(result.polygons().size, *request.extent.size);
@@ -379,6 +393,48 @@ TEST(ContinuousEngine, PinsAndThinMaterialsAreNamedByTheExample) {
   request.decided.pins = {{{9, 2, 0}, "brick"}};
   EXPECT_THAT([&] { runOn(continuousEngine(), cubes, request); },
               ThrowsMessage<InputError>(HasSubstr("outside of the result's 8 x 8 x 3")));
+}
+
+TEST(SurfaceEngine, RefusesWhatDoesNotGoWithASurface) {
+  const Example example = readExample(Source::of(bumps()));
+  Request request;
+  EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
+              ThrowsMessage<InputError>(HasSubstr("needs a surface; give `on`")));
+  request.on = Source::of(makeSphere({0, 0, 0}, 12, 6));
+  request.extent.scale = Vec3d{2, 2, 1};
+  EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
+              ThrowsMessage<InputError>(HasSubstr("`span` says how large")));
+  request.extent = {};
+  request.settings = {{"turns", "3"}};
+  EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
+              ThrowsMessage<InputError>(HasSubstr("expected 1, 2, 4 or 6")));
+  EXPECT_EQ(engineFor(Source::of(bumps()), {{"on", "ball.obj"}}).name(), "surface");
+  request.settings = {};
+  EXPECT_THAT([&] { runOn(geometryEngine(), example, request); },
+              ThrowsMessage<InputError>(HasSubstr("`on`: the engine geometry has no such setting; "
+                                                  "surface has")));
+}
+
+TEST(SurfaceEngine, SaysWhatItDidAboutAnUnsoundSurface) {
+  const Example example = readExample(Source::of(bumps()));
+  Request request;
+  request.settings = {{"span", "24"}};
+  TriangleMesh ball = makeSphere({0, 0, 0}, 12, 6);
+  request.on = Source::of(ball);
+  const Result sound = runOn(surfaceEngine(), example, request);
+  for (auto& [a, b, c] : ball.triangles) std::swap(b, c);
+  request.on = Source::of(ball);
+  const Result turned = runOn(surfaceEngine(), example, request);
+  EXPECT_EQ(turned.warnings.size(), sound.warnings.size() + 1);
+  EXPECT_THAT(turned.warnings[0], HasSubstr("inside out"));
+  EXPECT_EQ(turned.field().values.count(), sound.field().values.count());
+  // All faces twice, the other way round: nothing is enclosed.
+  TriangleMesh flat;
+  flat.positions = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}};
+  flat.triangles = {{0, 1, 2}, {0, 2, 1}};
+  request.on = Source::of(flat);
+  EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
+              ThrowsMessage<InputError>(HasSubstr("encloses nothing")));
 }
 
 }  // namespace

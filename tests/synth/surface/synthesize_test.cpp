@@ -1,0 +1,232 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/surface/synthesize.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "mesh/mesh_health.h"
+#include "reconstruct/field_to_mesh.h"
+#include "reconstruct/transfer.h"
+#include "synth/geometry/quilting/repetition.h"
+#include "tests/synth/surface/surfaces.h"
+#include "tests/threads.h"
+
+namespace exemplar::surface {
+namespace {
+
+SurfaceResult laid(const DistanceField& example, const TriangleMesh& on,
+                   SurfaceOptions options = {}) {
+  options.repetition = findRepetition(example.values).basis;
+  return synthesizeOnSurface(example, on, options);
+}
+
+void expectSound(const SurfaceResult& result) {
+  FieldToMeshReport report;
+  fieldToMesh(result.field, {}, {}, &report);
+  EXPECT_GT(report.health.triangles, 1000);
+  EXPECT_TRUE(report.health.closed());
+  EXPECT_TRUE(report.health.manifold());
+  EXPECT_TRUE(report.health.oriented());
+}
+
+double solidVolume(const DistanceField& field) {
+  // Samples near the surface count by how far in they are.
+  double volume = 0;
+  for (const float v : field.values.values())
+    volume += std::clamp(0.5 - v / field.voxelSize, 0.0, 1.0);
+  return volume * std::pow(field.voxelSize, 3);
+}
+
+TEST(Synthesize, ChainmailIsClosedAndManifoldOnSurfacesOfAllKinds) {
+  const DistanceField mail = chainmail();
+  const TriangleMesh surfaces[] = {makeTorus({0, 0, 0}, {0, 0, 1}, 1, 0.4, 60, 30),
+                                   makeSphere({0, 0, 0}, 1, 8),
+                                   genusThreeMesh(),
+                                   bodyMesh(),
+                                   makeBox({{0, 0, 0}, {1, 1, 1}}),
+                                   planeMesh(2, 10),
+                                   foldedMesh(2, 16)};
+  for (const TriangleMesh& on : surfaces) {
+    SurfaceOptions options;
+    options.span = 0.6 * length(boundingBox(on).size());
+    expectSound(laid(mail, on, options));
+  }
+}
+
+TEST(Synthesize, EveryBaseIsClosedAndManifold) {
+  const TriangleMesh body = bodyMesh(0.1);
+  for (const DistanceField& example : {chainmail(), metal(), grass()}) {
+    for (const Base base : {Base::None, Base::Under, Base::Carve}) {
+      SurfaceOptions options;
+      options.span = 2;
+      options.base = base;
+      expectSound(laid(example, body, options));
+    }
+  }
+}
+
+TEST(Synthesize, UnderneathItIsSolidAndCarvedOutOfItNothingSticksOut) {
+  const TriangleMesh ball = makeSphere({0, 0, 0}, 1, 12);
+  SurfaceOptions options;
+  options.span = 1;
+  options.base = Base::Under;
+  const DistanceField under = laid(metal(), ball, options).field;
+  options.base = Base::Carve;
+  const DistanceField carved = laid(metal(), ball, options).field;
+  for (std::size_t s = 0; s < under.values.count(); ++s) {
+    const double r = length(under.position(cast<double>(under.values.ijk(s))));
+    if (r < 0.97) {
+      ASSERT_LT(under.values.values()[s], 0);
+    }
+  }
+  for (std::size_t s = 0; s < carved.values.count(); ++s) {
+    const double r = length(carved.position(cast<double>(carved.values.ijk(s))));
+    if (r > 1.001) {
+      ASSERT_GT(carved.values.values()[s], 0);
+    }
+    if (r < 0.6) {
+      ASSERT_LT(carved.values.values()[s], 0);
+    }
+  }
+}
+
+TEST(Synthesize, VolumeIsThatOfTheGroundAndTheMeanHeight) {
+  const DistanceField example = metal();
+  const Slab slab(example);
+  double mean = 0;
+  for (int j = 0; j < slab.size().y; ++j) {
+    for (int i = 0; i < slab.size().x; ++i) {
+      double solid = 0;
+      for (int k = 0; k < slab.size().z; ++k)
+        solid += std::clamp(0.5 - slab.value({double(i), double(j)}, k), 0.0, 1.0);
+      mean += std::max(0.0, solid - 0.5 - slab.low()) / slab.size().x / slab.size().y;
+    }
+  }
+  const double radius = 1;
+  SurfaceOptions options;
+  options.span = 1;
+  options.base = Base::Under;
+  const SurfaceResult result = laid(example, makeSphere({0, 0, 0}, radius, 24), options);
+  const double sample = result.field.voxelSize;
+  const double outer = radius + mean * sample;
+  const double expected = 4.0 / 3 * 3.14159265358979 * outer * outer * outer;
+  EXPECT_NEAR(solidVolume(result.field), expected, 0.02 * expected);
+}
+
+TEST(Synthesize, ChainmailLeavesNoHolesOnATorus) {
+  const DistanceField mail = chainmail();
+  SurfaceOptions options;
+  options.span = 1.6;
+  const SurfaceResult result =
+      laid(mail, makeTorus({0, 0, 0}, {0, 0, 1}, 1, 0.45, 60, 30), options);
+  const Sheet sheet = makeSheet(makeTorus({0, 0, 0}, {0, 0, 1}, 1, 0.45, 60, 30), {.edge = 0.1});
+  const double period = 21.4 * result.field.voxelSize;
+  std::vector<Vec3d> solid;
+  for (std::size_t s = 0; s < result.field.values.count(); s += 3)
+    if (result.field.values.values()[s] < 0)
+      solid.push_back(result.field.position(cast<double>(result.field.values.ijk(s))));
+  for (std::uint32_t v = 0; v < sheet.positions.size(); v += 5) {
+    double nearest = 1e9;
+    for (const Vec3d& p : solid) nearest = std::min(nearest, length(p - sheet.positions[v]));
+    EXPECT_LT(nearest, period / 2);
+  }
+}
+
+TEST(Synthesize, IsTheSameAtAnyNumberOfThreads) {
+  const DistanceField mail = chainmail();
+  const TriangleMesh ball = makeSphere({0, 0, 0}, 1, 8);
+  SurfaceOptions options;
+  options.span = 2;
+  testing::expectSameAtAnyThreads([&] {
+    SurfaceResult result = laid(mail, ball, options);
+    return std::pair(std::move(result.field.values), std::move(result.origins));
+  });
+}
+
+TEST(Synthesize, AnotherSeedIsAnotherResult) {
+  const DistanceField rough = metal();
+  const TriangleMesh ball = makeSphere({0, 0, 0}, 1, 8);
+  SurfaceOptions options;
+  options.span = 1;
+  const SurfaceResult a = laid(rough, ball, options);
+  options.seed = 1;
+  const SurfaceResult b = laid(rough, ball, options);
+  ASSERT_EQ(a.field.size(), b.field.size());
+  std::size_t differ = 0, near = 0;
+  for (std::size_t s = 0; s < a.field.values.count(); ++s) {
+    const bool inA = a.field.values.values()[s] < 0, inB = b.field.values.values()[s] < 0;
+    differ += inA != inB;
+    near += std::abs(a.field.values.values()[s]) < a.field.voxelSize;
+  }
+  EXPECT_GT(differ, near / 10);
+}
+
+TEST(Synthesize, MapsItsPointsBackOntoTheExamplesSurface) {
+  const DistanceField mail = chainmail();
+  SurfaceOptions options;
+  options.span = 1.8;
+  const SurfaceResult result = laid(mail, makeSphere({0, 0, 0}, 1, 10), options);
+  const TriangleMesh mesh = fieldToMesh(result.field);
+  const Slab slab(mail);
+  std::vector<double> off;
+  for (std::size_t v = 0; v < mesh.positions.size(); v += 11) {
+    std::vector<OriginMap::Candidate> parts;
+    result.originMap->candidates(mesh.positions[v], parts);
+    ASSERT_FALSE(parts.empty());
+    const auto place = result.originMap->place(parts[0].part, mesh.positions[v]);
+    ASSERT_TRUE(place);
+    off.push_back(std::abs(slab.value({place->index.x, place->index.y}, place->index.z)));
+  }
+  std::sort(off.begin(), off.end());
+  EXPECT_LT(off[off.size() / 2], 0.15);
+  EXPECT_LT(off[off.size() * 9 / 10], 0.6);
+}
+
+TEST(Synthesize, RefusesWhatCannotBe) {
+  const DistanceField rough = metal();
+  SurfaceOptions options;
+  options.base = Base::Under;
+  EXPECT_THROW(laid(rough, planeMesh(1, 4), options), InputError);  // open
+  options = {};
+  options.span = 0;
+  EXPECT_THROW(laid(rough, planeMesh(1, 4), options), InputError);
+  options = {};
+  options.height = 0;
+  EXPECT_THROW(laid(rough, planeMesh(1, 4), options), InputError);
+  options = {};
+  options.symmetry = 3;
+  EXPECT_THROW(laid(rough, planeMesh(1, 4), options), InputError);
+  options = {};
+  options.strokes = {{{9, 9, 9}, {10, 9, 9}}};
+  EXPECT_THROW(laid(rough, planeMesh(1, 4), options), InputError);
+  EXPECT_THROW(laid(rough, TriangleMesh{}), InputError);
+  TriangleMesh bad = planeMesh(1, 2);
+  bad.positions[0].x = std::nan("");
+  EXPECT_THROW(laid(rough, bad), InputError);
+}
+
+TEST(Synthesize, SliversAndManyPartsAreSound) {
+  SurfaceOptions options;
+  options.span = 0.5;
+  const TriangleMesh sliver = gridMesh(2, 1, false, [](int i, int j) {
+    return Vec3d{i * 1.0, j * 1e-4, 0};
+  });
+  EXPECT_NO_THROW(laid(metal(), sliver, options));
+  TriangleMesh many;
+  for (int k = 0; k < 500; ++k) {
+    const double x = k % 25, y = k / 25;
+    const auto first = static_cast<std::uint32_t>(many.positions.size());
+    many.positions.insert(many.positions.end(), {{x, y, 0}, {x + 0.5, y, 0}, {x, y + 0.5, 0}});
+    many.triangles.push_back({first, first + 1, first + 2});
+  }
+  options.span = 12;
+  EXPECT_NO_THROW(laid(metal(), many, options));
+}
+
+}  // namespace
+}  // namespace exemplar::surface
