@@ -14,7 +14,6 @@
 namespace exemplar::surface {
 namespace {
 
-constexpr std::uint32_t kNone = Placements::kNone;
 /// Lengths of dual edges are in so many parts of their mean, at most this many times it.
 constexpr double kParts = 16, kLongest = 4;
 
