@@ -6,12 +6,13 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "voxelize/label_image.h"
+#include "voxelize/tiled_map.h"
 
 namespace exemplar {
 
 bool isLabelFile(const std::filesystem::path& path) {
   const std::string ending = lowerExtension(path);
-  return ending == ".txt" || ending == ".vox";
+  return ending == ".txt" || ending == ".vox" || isTiledFile(path);
 }
 
 LabelGrid readLabels(const std::filesystem::path& path, const Progress& progress) {
@@ -22,7 +23,8 @@ LabelGrid readLabels(const std::filesystem::path& path, const Progress& progress
   if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
     return labelsFromImage(decodeImage(readFile(path), name), name, {}, progress).grid;
   }
-  throw InputError(name + ": not a kind of label grid; use .txt .vox .vdb .png or .jpg");
+  if (isTiledFile(path)) return readTiledMap(path, progress).grid;
+  throw InputError(name + ": not a kind of label grid; use .txt .vox .vdb .png .jpg .tmx or .csv");
 }
 
 void writeLabels(const std::filesystem::path& path, const LabelGrid& grid,
@@ -32,6 +34,9 @@ void writeLabels(const std::filesystem::path& path, const LabelGrid& grid,
   if (ending == ".txt") return writeFile(path, formatLabelText(grid, progress));
   if (ending == ".vox") return writeFile(path, formatVox(grid, name, progress));
   if (ending == ".vdb") return writeLabelsVdb(path, grid, progress);
+  if (ending == ".csv") return writeLabelRows(path, grid, progress);
+  if (ending == ".tmx")
+    throw InputError(name + ": a .tmx is written of an example that is one; write a .csv");
   if (ending == ".png") return writePng(path, imageFromLabels(grid, progress));
   throw InputError(name + ": cannot write labels to this kind of file; use one of " +
                    kLabelEndings);

@@ -12,7 +12,9 @@
 
 namespace exemplar {
 
-/// Whether the path's ending names a file that holds labels and nothing else: `.txt` or `.vox`.
+/// Whether the path's ending names a file that holds labels and nothing else: `.txt`, `.vox`,
+/// `.tmx` or
+/// `.csv`.
 /// (`.vdb` and pictures may hold labels, too: `readLabels` tries.)
 bool isLabelFile(const std::filesystem::path& path);
 
@@ -21,19 +23,21 @@ bool isLabelFile(const std::filesystem::path& path);
 /// `.txt`: the text format of Merrell's model synthesis tool (see `parseLabelText`). `.vox`:
 /// MagicaVoxel (see `parseVox`). `.vdb`: the first grid of 32-bit integers. `.png .jpg .jpeg`: a
 /// flat grid, one label for each color, x to the right and y up; transparent pixels are empty.
+/// `.tmx .csv`: a map of tiles (see `readTiledMap`).
 ///
 /// Throws `InputError` naming the file, and the line in text, for anything malformed.
 LabelGrid readLabels(const std::filesystem::path& path, const Progress& progress = {});
 
 /// Writes a grid in the format of the path's ending, whole or not at all: `.txt` (labels, names and
 /// object lines), `.vox` (colors, 8 bits sRGB; at most 255 labels that are not empty), `.vdb` (a
-/// grid of 32-bit integers; everything, losslessly) or `.png` (flat grids; colors). The same grid
+/// grid of 32-bit integers; everything, losslessly) `.png` (flat grids; colors) or
+/// `.csv` (flat grids; numbers, -1 where empty). The same grid
 /// gives the same bytes. Throws `InputError` for what the format cannot hold.
 void writeLabels(const std::filesystem::path& path, const LabelGrid& grid,
                  const Progress& progress = {});
 
 /// The endings that `writeLabels` knows.
-inline constexpr const char* kLabelEndings = ".txt .vox .vdb .png";
+inline constexpr const char* kLabelEndings = ".txt .vox .vdb .png .csv";
 
 // The formats in memory. `name` is what errors call the file.
 
