@@ -92,8 +92,8 @@ TEST(Engines, AreFoundByNameAndByWhatTheExampleIs) {
   EXPECT_EQ(engineFor(Source::of(waves(20, 20))).name(), "terrain");
   EXPECT_THAT([] { engineNamed("best"); },
               ThrowsMessage<InputError>(HasSubstr(
-                  "expected geometry, quilting, voting, blocks, model, continuous, layered or "
-                  "terrain")));
+                  "expected geometry, quilting, voting, blocks, model, continuous, layered, "
+                  "layered-volume or terrain")));
 }
 
 TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {
