@@ -103,10 +103,9 @@ LayerMap readLayerMap(const std::filesystem::path& path, int layers) {
     // 8 bits are 257 steps of 16.
     for (const float gray : picture.planes[0].values()) {
       if (std::lround(65535 * gray) % 257 != 0)
-        throw InputError(
-            path.string() +
-            ": has grays of 16 bits that 8 bits cannot tell apart, and a layer map has "
-            "8; save it as a picture of 8 bits");
+        throw InputError(path.string() +
+                         ": has grays of 16 bits that 8 bits cannot hold, and a layer map has "
+                         "8; save it as a picture of 8 bits");
     }
   }
   Grid<int> grays(picture.planes[0].width(), picture.planes[0].height());

@@ -18,7 +18,7 @@
 namespace exemplar {
 namespace {
 
-/// Tells the draws of regions from those of layers.
+/// Keeps the draws of regions apart from those of layers.
 constexpr std::uint64_t kRegionDraws = 7000;
 
 /// Two regions, the cell's own first.

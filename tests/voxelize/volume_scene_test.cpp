@@ -69,7 +69,7 @@ TEST(VolumeScene, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(error("kind = \"volume\"\n"), "s.toml: a volume needs two [[layer]]s or more");
   EXPECT_EQ(error(start + "share = 2\n"), "s.toml:4: 'share' must be a number from 0 to 1");
   EXPECT_EQ(error(start + "color = \"red\"\n"), "s.toml:4: 'color' must be \"#rrggbb\"");
-  EXPECT_EQ(error(start + "colour = 1\n"), "s.toml:4: unknown key 'colour'");
+  EXPECT_EQ(error(start + "shade = 1\n"), "s.toml:4: unknown key 'shade'");
   EXPECT_EQ(error("kind = \"volume\"\nsize = [4, 4]\n"),
             "s.toml:2: 'size' must be three numbers of cells");
   EXPECT_THAT(error("kind = \"volume\"\nsize = ["), ::testing::HasSubstr("s.toml:2: "));

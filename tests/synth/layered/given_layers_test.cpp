@@ -28,7 +28,7 @@ Shape squareHole(const Vec3i& size, const Vec3i& low, int side) {
   return hole;
 }
 
-/// A picture of layers, whose colors tell them apart, with noise.
+/// A picture of layers, each of a color of its own, with noise.
 Map pictureOf(const LayerVolume& layers) {
   const Vec3i& size = layers.size();
   MapLayer picture{"color", std::vector<Grid<float>>(3, Grid<float>(size.x, size.y)), 8};
