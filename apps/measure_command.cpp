@@ -77,9 +77,15 @@ void requireNoSurface(const Options& options, const std::string& what) {
 
 void measureLayerMaps(const Options& options, Terminal& terminal) {
   requireNoSurface(options, "layer maps");
+  const Progress& progress = terminal.progress();
+  if (sourceKind(options.example) == SourceKind::Labels) {
+    const LayersLikeness likeness =
+        measureLayers(Source(options.example), Source(options.result), progress);
+    return writeFigures(options, figures(likeness), terminal);
+  }
   const LayerMap example = readLayerMap(options.example);
   const LayerMap result = readLayerMap(options.result, layerCount(example));
-  writeFigures(options, figures(measureLayers(example, false, result, terminal.progress())),
+  writeFigures(options, figures(measureLayers(boxOf(example), false, boxOf(result), progress)),
                terminal);
 }
 
@@ -171,7 +177,8 @@ Command addMeasureCommand(CLI::App& app) {
   }
   rows.install(*command, options->settings);
   command->add_flag("--layers", options->layers,
-                    "both are gray pictures of layers, as synth --write-layers writes them");
+                    "both are gray pictures of layers, as synth --write-layers writes them, or "
+                    "volumes of labels, each label a layer");
   command->add_option("--json", options->json, "write the figures to this .json; - prints them");
   command->add_option("--report", options->report,
                       "write a page with surfaces that turn, figures and marks (.html)");

@@ -14,6 +14,7 @@
 #include "engine/words.h"
 #include "mesh/mesh_file.h"
 #include "mesh/scene.h"
+#include "voxelize/label_file.h"
 
 namespace exemplar {
 namespace {
@@ -46,14 +47,15 @@ Command addSceneCommand(CLI::App& app) {
     Settings settings;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("scene", "Write a bundled scene's example as a mesh");
+  CLI::App* command = app.add_subcommand(
+      "scene", "Write a bundled scene's example as a mesh, or a volume's labels");
   command
       ->add_option("NAME", options->name,
                    joined(bundledScenes(), "and") + "; or a scene .toml of your own")
       ->required();
   command
       ->add_option("-o,--output", options->output,
-                   "the mesh to write: " + std::string(kMeshEndings))
+                   "what to write: " + std::string(kMeshEndings) + "; of a volume " + kLabelEndings)
       ->required();
   SettingOptions rows;
   rows.add("Scene", "", sceneSettings().settings());
@@ -61,13 +63,26 @@ Command addSceneCommand(CLI::App& app) {
 
   command->footer(examplesFooter({"scene chainmail -o chainmail.glb"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
-            requireOutput(options->output, kMeshEndings);
+            const Source source(findScene(options->name));
+            const SourceKind kind = sourceKind(source);
+            const bool volume = kind == SourceKind::Labels;
+            requireOutput(options->output, volume ? kLabelEndings : kMeshEndings);
             SceneRequest request;
             sceneSettings().apply(options->settings, request);
-            if (const Source source(findScene(options->name));
-                sourceKind(source) == SourceKind::Solids) {
-              if (request.scene.seed || request.scene.extent != Vec3d{1, 1, 1})
-                throw InputError("`scene-seed`, `extent`: a scene of solids is what it is");
+            if ((volume || kind == SourceKind::Solids) &&
+                (request.scene.seed || request.scene.extent != Vec3d{1, 1, 1}))
+              throw InputError(
+                  "`scene-seed`, `extent`: a scene of solids or of a volume is what "
+                  "it is");
+            if (volume) {
+              const LabelGrid grid = readLabelGrid(source);
+              writeLabels(options->output, grid);
+              terminal.wrote("scene", options->output,
+                             source.name() + " written to " + options->output + ": " +
+                                 readableSize(grid.size(), "cells"));
+              return;
+            }
+            if (kind == SourceKind::Solids) {
               writeMesh(options->output, readTriangles(source, {}), request.file);
               terminal.wrote("scene", options->output,
                              source.name() + " written to " + options->output);

@@ -70,9 +70,10 @@ struct Plan {
 const Engine& engineOf(const Options& options, Settings& settings) {
   const std::string method = settings.text("method");
   const bool named = options.engine != "auto" && !options.engine.empty();
-  const Engine& engine = named             ? engineNamed(options.engine)
+  const Source first(options.examples.front());
+  const Engine& engine = named             ? engineNamed(options.engine, first)
                          : !method.empty() ? engineNamed("geometry")
-                                           : engineFor(Source(options.examples.front()), settings);
+                                           : engineFor(first, settings);
   if (engine.name() != "geometry" || method.empty()) return engine;
   if (method != "optimize" && method != "blocks")
     throw InputError("`method` " + method + ": expected optimize or blocks");
@@ -98,7 +99,7 @@ void checkOutputs(const Options& options, Form form, int lods) {
   Paths inputs(options.examples.begin(), options.examples.end());
   inputs.insert(inputs.end(), options.with.begin(), options.with.end());
   for (const char* key :
-       {"keep", "guide", "on", "mask", "base", "detail-of", "layers-from", "paint"})
+       {"keep", "guide", "on", "mask", "base", "detail-of", "layers-from", "paint", "inpaint"})
     if (options.settings.has(key)) inputs.emplace_back(options.settings.text(key));
   std::vector<std::pair<std::string, std::string>> channels;
   if (form == Form::Map) channels = readingOf(options.settings, form).channels;
@@ -323,10 +324,10 @@ void write(const Options& options, Plan plan, std::span<const Example> examples,
   }
   if (!options.layers.empty()) {
     const int layers = layerCount(*result.exampleLayers);
-    writeLayerMap(options.layers, *result.layers, layers);
+    writeLayerMap(options.layers, gridOf(*result.layers), layers);
     terminal.wrote("layers", options.layers, options.layers);
     const std::filesystem::path ofExample = exampleLayersPath(options.layers);
-    writeLayerMap(ofExample, *result.exampleLayers, layers);
+    writeLayerMap(ofExample, gridOf(*result.exampleLayers), layers);
     terminal.wrote("layers", ofExample.string(), ofExample.string() + ", the example's");
   }
   if (!options.preview.empty() && result.form() == Form::Map) {

@@ -94,9 +94,10 @@ Result Engine::run(std::span<const Example> examples, const Request& request,
 }
 
 std::span<const Engine* const> engines() {
-  static const Engine* const all[] = {&geometryEngine(), &quiltingEngine(), &votingEngine(),
-                                      &blocksEngine(),   &modelEngine(),    &continuousEngine(),
-                                      &layeredEngine(),  &terrainEngine(),  &surfaceEngine()};
+  static const Engine* const all[] = {
+      &geometryEngine(), &quiltingEngine(),   &votingEngine(),  &blocksEngine(),
+      &modelEngine(),    &continuousEngine(), &layeredEngine(), &layeredVolumeEngine(),
+      &terrainEngine(),  &surfaceEngine()};
   return all;
 }
 
@@ -107,6 +108,12 @@ const Engine& engineNamed(std::string_view name) {
     names.emplace_back(engine->name());
   }
   throw InputError("`engine` " + std::string(name) + ": expected " + joined(names, "or"));
+}
+
+const Engine& engineNamed(std::string_view name, const Source& source) {
+  const Engine& engine = engineNamed(name);
+  const bool isPicture = &engine == &layeredEngine();
+  return isPicture && sourceKind(source) == SourceKind::Labels ? layeredVolumeEngine() : engine;
 }
 
 const Engine& engineFor(const Source& source) {

@@ -56,10 +56,13 @@ class Engine {
                             const Progress& progress) const = 0;
 };
 
-/// All engines: geometry, quilting, voting, blocks, model, continuous, layered, terrain, surface.
+/// All engines: geometry, quilting, voting, blocks, model, continuous, layered, layered-volume,
+/// terrain, surface.
 std::span<const Engine* const> engines();
 /// The engine of a name. Throws `InputError` naming all.
 const Engine& engineNamed(std::string_view name);
+/// The same for a source: layered of a volume of labels is layered-volume.
+const Engine& engineNamed(std::string_view name, const Source& source);
 /// The engine that a source asks for: model where it holds labels, continuous where it holds solids
 /// between planes, terrain where it is a height map, else geometry.
 const Engine& engineFor(const Source& source);

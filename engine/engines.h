@@ -21,8 +21,10 @@ const Engine& blocksEngine();
 const Engine& modelEngine();
 /// Continuous model synthesis (Merrell and Manocha 2008; `synth/continuous`).
 const Engine& continuousEngine();
-/// Layered shape synthesis (Rosenberger, Cohen-Or, Lischinski 2009; `synth/layered`).
+/// Layered shape synthesis (Rosenberger, Cohen-Or, Lischinski 2009; `synth/layered`), of pictures
+/// and of volumes.
 const Engine& layeredEngine();
+const Engine& layeredVolumeEngine();
 /// Terrain synthesis (`synth/terrain`).
 const Engine& terrainEngine();
 /// An example laid on a surface (`synth/surface`).

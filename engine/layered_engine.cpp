@@ -1,146 +1,51 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-// Layered shape synthesis: from a picture to its layers, to new layers, to a new picture.
+// Layered shape synthesis of pictures: from a picture to its layers, to new layers, to a new
+// picture.
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
 #include "core/memory.h"
 #include "engine/engines.h"
+#include "engine/layered_settings.h"
 #include "engine/words.h"
-#include "synth/layered/layers.h"
-#include "synth/layered/texture_by_numbers.h"
+#include "synth/layered/regions.h"
 
 namespace exemplar {
 namespace {
 
-enum class PictureKind { Auto, Texture, Heights };
-
-struct LayeredSettings {
-  DecompositionOptions decomposition;
-  PictureKind kind = PictureKind::Auto;
-  std::string order, layersFrom, paint;
-  int turns = 0;  ///< 0: found
-  LayerOptions layers;
-  TextureOptions texture{.guide = 3};
-};
-
-const SettingTable<LayeredSettings>& layeredSettings() {
-  using O = LayeredSettings;
-  static const SettingTable<O> table{
-      settingRow<O>("layers", [](O& o) -> int& { return o.decomposition.layers; },
-                    "how many layers the picture is decomposed into", {2, kMostLayers}),
-      choiceRow<O, PictureKind>("kind", &O::kind,
-                                "what the picture is: a texture, whose layers are clusters of "
-                                "neighborhoods, or heights, whose layers lie between contour lines "
-                                "(auto: heights where it is gray and of 16 bits)",
-                                {{"auto", PictureKind::Auto},
-                                 {"texture", PictureKind::Texture},
-                                 {"heights", PictureKind::Heights}}),
-      settingRow<O>(
-          "neighborhood", [](O& o) -> int& { return o.decomposition.neighborhood; },
-          "side of the neighborhoods that are clustered, odd", {5, 31}, "pixels"),
-      settingRow<O>("order", &O::order,
-                    "the clusters from the bottom up, by size: 2,1,3 puts the second largest below "
-                    "the largest",
-                    {}, "", "so that as few steps as possible skip a layer"),
-      {{.key = "layers-from",
-        .type = SettingType::File,
-        .meaning = "a gray picture of the example's size whose grays are its layers, dark to "
-                   "light, in place of the decomposition"},
-       [](const Setting&, const std::string& text, O& o) { o.layersFrom = text; }},
-      {{.key = "paint",
-        .type = SettingType::File,
-        .meaning = "a gray picture of the layers that the result should have, in the grays that "
-                   "--write-layers writes"},
-       [](const Setting&, const std::string& text, O& o) { o.paint = text; }},
-      settingRow<O>(
-          "shape-patch", [](O& o) -> int& { return o.layers.shape.patch; },
-          "side of the patches around the layers' boundaries, odd", {9, BoundaryPatches::kMostSide},
-          "pixels"),
-      settingRow<O>("shape-levels", [](O& o) -> int& { return o.layers.shape.levels; },
-                    "resolutions on which layers are made, each half the one before", {1, 7}),
-      settingRow<O>("shape-iterations", [](O& o) -> int& { return o.layers.shape.iterations; },
-                    "rounds of matching and voting on each, at most", {1, 50}),
-      {{.key = "orientations",
-        .type = SettingType::Integer,
-        .meaning = "in how many orientations patches are used: 1, 2 (turned by half), 4 (by "
-                   "quarters) or 8 (and mirrored)",
-        .least = 1,
-        .most = 8,
-        .byDefault = "4; 2 where the layers have a direction"},
-       [](const Setting& setting, const std::string& text, O& o) {
-         o.turns = static_cast<int>(readInteger(setting, text));
-         if (o.turns != 1 && o.turns != 2 && o.turns != 4 && o.turns != 8)
-           throw InputError("`orientations` " + text + ": expected 1, 2, 4 or 8");
-       }},
-      choiceRow<O, AssignmentKind>(
-          "assignment", [](O& o) -> AssignmentKind& { return o.layers.shape.assignment; },
-          "how the example's patches are dealt out: cheapest pairs first, or, on levels of up to "
-          "2,000 patches, the optimum",
-          {{"greedy", AssignmentKind::Greedy}, {"exact", AssignmentKind::Exact}}),
-      settingRow<O>(
-          "texture-patch", [](O& o) -> int& { return o.texture.patch; },
-          "side of the patches of the texture, odd", {3, 9}, "pixels"),
-      settingRow<O>("texture-levels", [](O& o) -> int& { return o.texture.levels; },
-                    "resolutions on which the texture is made, each half the one before", {1, 8}),
-      settingRow<O>("texture-rounds", [](O& o) -> int& { return o.texture.rounds; },
-                    "rounds of search and vote on each", {1, 20}),
-      settingRow<O>(
-          "follow", [](O& o) -> double& { return o.texture.guide; },
-          "how strictly the texture follows the layers", kAboveZero),
-      settingRow<O>(
-          "evenness", [](O& o) -> double& { return o.texture.evenness; },
-          "how much it costs to use a part of the example more often than others", kFromZero)};
-  return table;
+std::string pixelsText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
-void requireOdd(int value, const char* key) {
-  if (value % 2 == 0)
-    throw InputError("`" + std::string(key) + "` " + std::to_string(value) +
-                     ": expected an odd number");
-}
-
-LayeredSettings settingsFrom(const Request& request) {
-  LayeredSettings settings;
-  layeredSettings().apply(request.settings, settings);
-  requireOdd(settings.decomposition.neighborhood, "neighborhood");
-  requireOdd(settings.layers.shape.patch, "shape-patch");
-  requireOdd(settings.texture.patch, "texture-patch");
-  if (!settings.order.empty()) {
-    for (const std::string& word : split(settings.order, ','))
-      settings.decomposition.order.push_back(wholeNumber(parseNumber(word, "`order`"), "`order`"));
-    std::vector<int> sorted = settings.decomposition.order;
-    std::ranges::sort(sorted);
-    for (int n = 0; n < static_cast<int>(sorted.size()); ++n) {
-      if (sorted[static_cast<std::size_t>(n)] != n + 1 ||
-          static_cast<int>(sorted.size()) != settings.decomposition.layers)
-        throw InputError("`order` " + settings.order + ": expected each of 1 to " +
-                         std::to_string(settings.decomposition.layers) + " once");
-    }
-  }
-  settings.layers.seed = settings.texture.seed = request.seed;
-  return settings;
+/// What the texture is compared by; where there is a hole, it is filled from around it.
+MapLayer pictureWithout(const Shape& hole, const MapLayer& picture) {
+  if (hole.empty()) return picture;
+  Planes planes = planesOf(picture);
+  fillSmoothly(planes, hole);
+  MapLayer filled{picture.name, {}, picture.bits};
+  for (const Array3D<float>& plane : planes) filled.planes.push_back(gridOf(plane));
+  return filled;
 }
 
 /// The example's layers: as an artist gave them, or found.
-Decomposition layersOf(const Example& example, const LayeredSettings& settings,
+Decomposition layersOf(const Example& example, const LayeredSettings& settings, const Shape& hole,
                        const Progress& progress) {
-  const MapLayer& picture = example.map().layers.front();
+  const MapLayer picture = pictureWithout(hole, example.map().layers.front());
   if (!settings.layersFrom.empty()) {
-    Decomposition given{readLayerMap(settings.layersFrom), {}, 0};
-    if (!given.map.sameSize(picture.planes.front())) {
-      throw InputError(settings.layersFrom + ": " + std::to_string(given.map.width()) + " x " +
-                       std::to_string(given.map.height()) + " pixels; it must have the size of " +
-                       example.name());
+    const LayerMap map = readLayerMap(settings.layersFrom);
+    if (!map.sameSize(picture.planes.front())) {
+      throw InputError(settings.layersFrom + ": " + pixelsText(map.width(), map.height()) +
+                       "; it must have the size of " + example.name());
     }
-    if (layerCount(given.map) < 2)
+    if (layerCount(map) < 2)
       throw InputError(settings.layersFrom + ": one gray; a layer map has two or more");
-    given.shares.resize(static_cast<std::size_t>(layerCount(given.map)));
-    for (const std::uint8_t k : given.map.values())
-      given.shares[k - 1u] += 1 / static_cast<double>(given.map.count());
+    Decomposition given{boxOf(map), {}, 0};
+    given.shares = layerShares(given.map, layerCount(map));
     given.skipping = skippingShare(given.map);
     return given;
   }
@@ -154,6 +59,46 @@ Decomposition layersOf(const Example& example, const LayeredSettings& settings,
                  : decomposeTexture(picture, settings.decomposition, 0, progress);
 }
 
+/// The part of the example that is to be filled; empty where there is none.
+Shape holeOf(const std::string& path, const Example& example) {
+  if (path.empty()) return {};
+  const Map& map = example.map();
+  const MapLayer picture = readMapLayer(path, "inpaint");
+  const Grid<float>& white = picture.planes.front();
+  if (!white.sameSize(map.layers.front().planes.front())) {
+    throw InputError(path + ": " + pixelsText(white.width(), white.height()) + "; " +
+                     example.name() + " has " + pixelsText(map.width(), map.height()) +
+                     ", and the two must be of one size");
+  }
+  Shape hole(Vec3i{white.width(), white.height(), 1});
+  for (std::size_t p = 0; p < hole.count(); ++p) hole.data()[p] = white[p] > 0.5f;
+  const std::int64_t cells = insideOf(hole);
+  if (cells == 0) throw InputError(path + ": nothing is white, so that nothing is to be filled");
+  if (cells == static_cast<std::int64_t>(hole.count()))
+    throw InputError(path + ": all is white; the example must be known somewhere");
+  return hole;
+}
+
+LayerVolume paintedLayers(const std::string& path, int layers, const Vec3i& size) {
+  const LayerMap painted = readLayerMap(path, layers);
+  if (painted.width() != size.x || painted.height() != size.y) {
+    throw InputError(path + ": " + pixelsText(painted.width(), painted.height()) +
+                     "; the result has " + std::to_string(size.x) + " x " + std::to_string(size.y) +
+                     ", as `size` says");
+  }
+  return boxOf(painted);
+}
+
+void noteLayers(const Decomposition& found, const SynthesizedLayers& made, Result& result) {
+  std::string shares;
+  for (const double share : found.shares)
+    shares += (shares.empty() ? "" : ", ") + numberText(std::round(100 * share)) + " %";
+  result.notes.emplace_back("layers", "bottom up " + shares);
+  for (std::size_t n = 0; n < found.shares.size(); ++n)
+    result.statistics.emplace_back("share_of_layer_" + std::to_string(n + 1), found.shares[n]);
+  warnOfAreas(made, static_cast<int>(found.shares.size()), result);
+}
+
 class LayeredEngine final : public Engine {
  public:
   std::string_view name() const override { return "layered"; }
@@ -165,68 +110,73 @@ class LayeredEngine final : public Engine {
   Form form() const override { return Form::Map; }
   Vec3i extentOf(std::span<const Example> examples, const Request& request) const override {
     const Map& map = examples.front().map();
-    Vec3i size = resultSize(request, {map.width(), map.height(), 1}, {2, 2, 1}, "pixels");
+    const bool fills = request.settings.has("inpaint");
+    const Vec3d usual = fills ? Vec3d{1, 1, 1} : Vec3d{2, 2, 1};
+    Vec3i size = resultSize(request, {map.width(), map.height(), 1}, usual, "pixels");
     size.z = 1;
     return size;
   }
-  std::span<const Setting> settings() const override { return layeredSettings().settings(); }
+  std::span<const Setting> settings() const override { return layeredPictureSettings().settings(); }
   std::span<const std::string_view> honors() const override { return {}; }
 
  protected:
-  void checkFurther(const Request& request, std::size_t) const override { settingsFrom(request); }
+  void checkFurther(const Request& request, std::size_t) const override {
+    layeredPictureSettingsOf(request);
+  }
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {
     const Example& example = examples.front();
     const Map& map = example.map();
-    LayeredSettings settings = settingsFrom(request);
+    LayeredSettings settings = layeredPictureSettingsOf(request);
     const Vec3i size = extentOf(examples, request);
     const double planes = static_cast<double>(map.planes().size());
     requireMemory(
-        (120 + 16 * planes) * size.x * size.y + (240 + 16 * planes) * map.width() * map.height(),
+        (140 + 16 * planes) * size.x * size.y + (240 + 16 * planes) * map.width() * map.height(),
         "layered synthesis", "ask for a smaller `size`");
+    const Shape hole = holeOf(settings.inpaint, example);
     Result result;
-    const Decomposition found = layersOf(example, settings, progress.part(0, 0.15));
+    const Decomposition found = layersOf(example, settings, hole, progress.part(0, 0.15));
     const int layers = layerCount(found.map);
-    if (found.skipping > 0.15) {
+    if (found.skipping > 0.15 && !settings.regions) {
       result.warnings.push_back(
           numberText(std::round(100 * found.skipping)) +
           " % of the steps between layers skip one, so that these are not layers on each other; "
-          "try fewer `layers`, or another `order`");
+          "try fewer `layers`, another `order`, or `regions`");
     }
     const bool directed = orientation(found.map) > 1.5;
     settings.layers.shape.turns = settings.turns > 0 ? settings.turns : directed ? 2 : 4;
     SynthesizedLayers made;
-    if (settings.paint.empty()) {
-      made = synthesizeLayers(found.map, size.x, size.y, settings.layers, progress.part(0.15, 0.5));
+    LayerVolume painted;
+    if (!settings.paint.empty()) painted = paintedLayers(settings.paint, layers, size);
+    if (!painted.empty() && settings.layers.paintLevels == 0) {
+      made.map = painted;
     } else {
-      made.map = readLayerMap(settings.paint, layers);
-      if (made.map.width() != size.x || made.map.height() != size.y) {
-        throw InputError(settings.paint + ": " + std::to_string(made.map.width()) + " x " +
-                         std::to_string(made.map.height()) + " pixels; the result has " +
-                         std::to_string(size.x) + " x " + std::to_string(size.y) +
-                         ", as `size` says");
+      if (!painted.empty()) {
+        painted = withStrips(painted, found.map);
+        settings.layers.paint = &painted;
       }
+      if (!hole.empty()) settings.layers.hole = &hole;
+      made = settings.regions
+                 ? synthesizeRegions(found.map, size, settings.layers, progress.part(0.15, 0.5))
+                 : synthesizeLayers(found.map, size, settings.layers, progress.part(0.15, 0.5));
     }
-    for (std::size_t n = 0; n < made.areaErrors.size(); ++n) {
-      if (std::abs(made.areaErrors[n]) > 1e-3)
-        result.warnings.push_back("layer " + std::to_string(n + 2) + " covers " +
-                                  numberText(std::round(1e4 * made.areaErrors[n]) / 100) +
-                                  " % of the result more than of the example: the layer below "
-                                  "leaves it too little room");
+    Planes exampleGuide, guide;
+    if (settings.regions) {
+      exampleGuide = regionGuides(found.map, layers);
+      guide = regionGuides(made.map, layers);
+    } else {
+      ControlMaps control =
+          controlMaps(found.map, false, made.map, hole.empty(), progress.part(0.5, 0.55));
+      exampleGuide.push_back(std::move(control.example));
+      guide.push_back(std::move(control.result));
     }
-    const ControlMaps control = controlMaps(found.map, false, made.map, progress.part(0.5, 0.55));
-    GuidedTexture texture = synthesizeTexture(map, control.example, control.result,
+    GuidedTexture texture = synthesizeTexture(map, std::move(exampleGuide), std::move(guide), hole,
                                               settings.texture, progress.part(0.55, 1));
-    std::string shares;
-    for (const double share : found.shares)
-      shares += (shares.empty() ? "" : ", ") + numberText(std::round(100 * share)) + " %";
-    result.notes.emplace_back("layers", "bottom up " + shares);
     result.statistics = {{"layer_count", std::int64_t{layers}},
                          {"orientations", std::int64_t{settings.layers.shape.turns}},
                          {"skipping", skippingShare(made.map)},
                          {"skipping_example", found.skipping}};
-    for (std::size_t n = 0; n < found.shares.size(); ++n)
-      result.statistics.emplace_back("share_of_layer_" + std::to_string(n + 1), found.shares[n]);
+    noteLayers(found, made, result);
     result.data = std::move(texture.map);
     result.exampleLayers = found.map;
     result.layers = std::move(made.map);

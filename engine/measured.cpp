@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "engine/example_forms.h"
 #include "engine/heights.h"
+#include "engine/label_layers.h"
 #include "engine/model_request.h"
 #include "engine/realize.h"
 #include "engine/request.h"
@@ -85,6 +86,16 @@ std::optional<TerrainLikeness> measureTerrain(const Result& result,
   const HeightMap made = sdfToHeightMap(result.field(), progress.part(0.05, 0.1));
   return measureTerrain(wanted.heights, made.heights, {.cellSize = wanted.cellSize}, nullptr,
                         progress.part(0.1, 1));
+}
+
+LayersLikeness measureLayers(const Source& example, const Source& result,
+                             const Progress& progress) {
+  const Source both[] = {example, result};
+  const std::vector<Example> read =
+      readExamples(both, {.form = Form::Labels}, progress.part(0, 0.2));
+  const LabelLayers layers = layersOfLabels(read[0].labels(), {}, example.name());
+  return measureLayers(layers.layers, false, layersLike(read[1].labels(), layers, result.name()),
+                       progress.part(0.2, 1));
 }
 
 bool areHeights(const Source& example, const Source& result) {

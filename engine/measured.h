@@ -10,6 +10,7 @@
 #include "engine/example.h"
 #include "engine/result.h"
 #include "measure/figures.h"
+#include "measure/layers.h"
 #include "measure/measure.h"
 #include "mesh/triangle_mesh.h"
 
@@ -36,6 +37,11 @@ Content measureContent(const Source& result, const Example& example, const Progr
 std::optional<TerrainLikeness> measureTerrain(const Result& result,
                                               std::span<const Example> examples,
                                               const Progress& progress = {});
+/// Two volumes of labels as layers, the result's as the example's are found. Throws `InputError`
+/// and `Cancelled`.
+LayersLikeness measureLayers(const Source& example, const Source& result,
+                             const Progress& progress = {});
+
 /// Whether both are height maps, which are measured as terrain.
 bool areHeights(const Source& example, const Source& result);
 /// Two height maps against each other, at the example's `cell-size` and `height-scale`. What

@@ -55,8 +55,8 @@ struct Result {
 
   /// Of heights: where each came from.
   Grid<HeightOrigin> heightOrigins;
-  /// Of a map that was made by layers: which layer shows, in the example and in the result.
-  std::optional<LayerMap> exampleLayers, layers;
+  /// Of what was made by layers: which layer shows, in the example and in the result.
+  std::optional<LayerVolume> exampleLayers, layers;
 
   Statistics statistics;
   std::optional<Conflict> conflict;  ///< where it is impossible

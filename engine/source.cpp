@@ -17,6 +17,7 @@
 #include "synth/continuous/flat.h"
 #include "synth/continuous/synthesize.h"
 #include "voxelize/label_file.h"
+#include "voxelize/volume_scene.h"
 
 namespace exemplar {
 namespace {
@@ -44,6 +45,15 @@ std::string sceneText(const Source& source) {
 bool isSolids(const Source& source) {
   try {
     return continuous::isSolidScene(sceneText(source));
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Whether a .toml is a scene of a volume of labels; the same.
+bool isVolume(const Source& source) {
+  try {
+    return isVolumeScene(sceneText(source));
   } catch (const InputError&) {
     return false;
   }
@@ -85,6 +95,7 @@ SourceKind sourceKind(const Source& source) {
   if (source.inMemory<std::string>() && ending == ".vdb")
     throw InputError(source.name() + ": a .vdb is read from a file, not from bytes");
   if (ending == ".toml" && isSolids(source)) return SourceKind::Solids;
+  if (ending == ".toml" && isVolume(source)) return SourceKind::Labels;
   if (source.inMemory<std::string>() && ending == ".toml") {
     const Scene scene = readScene(*source.inMemory<std::string>(), source.name(), {});
     return scene.cell ? SourceKind::Pieces : SourceKind::Scene;
@@ -138,6 +149,8 @@ DistanceField readDistances(const Source& source, const ReadVdbOptions& options,
 
 LabelGrid readLabelGrid(const Source& source, const Progress& progress) {
   if (!isFile(source)) return held<LabelGrid>(source, "labels");
+  if (lowerExtension(source.path()) == ".toml")
+    return readVolumeScene(sceneText(source), source.path().stem().string(), progress);
   if (const std::string* bytes = source.inMemory<std::string>()) {
     return lowerExtension(source.path()) == ".vox"
                ? parseVox(*bytes, source.name())

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "core/simd.h"
 
@@ -22,31 +21,41 @@ std::vector<int> symmetriesOf(int turns) {
   return all;
 }
 
+/// Cells that differ in the words that count whole, and half of those in the others.
 EXEMPLAR_MULTIVERSION
-int differing(const std::uint64_t* a, const std::uint64_t* b, int words) {
-  int sum = 0;
-  for (int w = 0; w < words; ++w) sum += std::popcount(a[w] ^ b[w]);
-  return sum;
+int differing(const std::uint64_t* a, const std::uint64_t* b, int whole, int words) {
+  int sum = 0, halves = 0;
+  for (int w = 0; w < whole; ++w) sum += std::popcount(a[w] ^ b[w]);
+  for (int w = whole; w < words; ++w) halves += std::popcount(a[w] ^ b[w]);
+  return sum + halves / 2;
 }
 
 EXEMPLAR_MULTIVERSION
 void differingAndKnown(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* known,
-                       int words, int& sum, int& count) {
+                       int whole, int words, int& sum, int& count) {
+  int halves = 0;
   sum = count = 0;
-  for (int w = 0; w < words; ++w) {
+  for (int w = 0; w < whole; ++w) {
     sum += std::popcount((a[w] ^ b[w]) & known[w]);
     count += std::popcount(known[w]);
   }
+  for (int w = whole; w < words; ++w) {
+    halves += std::popcount((a[w] ^ b[w]) & known[w]);
+    if (whole == 0) count += std::popcount(known[w]);
+  }
+  sum += halves / 2;
 }
 
 /// The nearest of consecutive orientations of one patch that are wholly known.
 EXEMPLAR_MULTIVERSION
-int nearestTurn(const std::uint64_t* a, const std::uint64_t* turned, int words, int turns,
-                int* turn) {
+int nearestTurn(const std::uint64_t* a, const std::uint64_t* turned, int whole, int words,
+                int turns, int* turn) {
   int least = 1 << 30;
-  for (int t = 0; t < turns; ++t) {
-    int sum = 0;
-    for (int w = 0; w < words; ++w) sum += std::popcount(a[w] ^ turned[t * words + w]);
+  for (int t = 0; t < turns; ++t, turned += words) {
+    int sum = 0, halves = 0;
+    for (int w = 0; w < whole; ++w) sum += std::popcount(a[w] ^ turned[w]);
+    for (int w = whole; w < words; ++w) halves += std::popcount(a[w] ^ turned[w]);
+    sum += halves / 2;
     if (sum < least) {
       least = sum;
       *turn = t;
@@ -55,110 +64,62 @@ int nearestTurn(const std::uint64_t* a, const std::uint64_t* turned, int words, 
   return least;
 }
 
-/// The component of each pixel: the index of its first pixel.
-DisjointSets componentsOf(const Shape& shape, bool wraps) {
-  DisjointSets sets(shape.count());
-  for (int y = 0; y < shape.height(); ++y) {
-    for (int x = 0; x < shape.width(); ++x) {
-      const std::size_t p = shape.index(x, y);
-      for (const Pixel& step : {Pixel{1, 0}, Pixel{0, 1}}) {
-        if (!wraps && !shape.contains(x + step.x, y + step.y)) continue;
-        const std::size_t q = shape.wrapped(x + step.x, y + step.y);
-        if (shape[p] == shape[q])
-          sets.join(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(q));
-      }
-    }
-  }
-  return sets;
-}
-
-std::vector<std::uint32_t> pixelsOfSets(DisjointSets& sets) {
-  std::vector<std::uint32_t> pixels(sets.count());
-  for (std::uint32_t p = 0; p < pixels.size(); ++p) ++pixels[sets.find(p)];
-  return pixels;
-}
-
 }  // namespace
 
-std::vector<std::uint32_t> componentSizes(const Shape& shape, bool inside, bool wraps) {
-  DisjointSets sets = componentsOf(shape, wraps);
-  std::vector<std::uint32_t> sizes;
-  const std::vector<std::uint32_t> pixels = pixelsOfSets(sets);
-  for (std::uint32_t p = 0; p < pixels.size(); ++p)
-    if (pixels[p] > 0 && (shape[p] != 0) == inside) sizes.push_back(pixels[p]);
-  return sizes;
-}
-
-void removeSmall(Shape& shape, std::uint32_t inside, std::uint32_t outside, bool wraps) {
-  DisjointSets sets = componentsOf(shape, wraps);
-  const std::vector<std::uint32_t> pixels = pixelsOfSets(sets);
-  for (std::uint32_t p = 0; p < pixels.size(); ++p)
-    if (pixels[sets.find(p)] < (shape[p] ? inside : outside)) shape[p] = !shape[p];
-}
-
-std::vector<Pixel> boundaryOf(const Shape& shape, bool wraps) {
-  constexpr Pixel kSteps[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-  std::vector<Pixel> boundary;
-  for (int y = 0; y < shape.height(); ++y) {
-    for (int x = 0; x < shape.width(); ++x) {
-      if (!shape(x, y)) continue;
-      for (const Pixel& step : kSteps) {
-        const int nx = x + step.x, ny = y + step.y;
-        if (!wraps && !shape.contains(nx, ny)) continue;
-        if (shape[shape.wrapped(nx, ny)]) continue;
-        boundary.push_back({x, y});
-        break;
-      }
-    }
-  }
-  return boundary;
-}
-
-double areaOf(const Shape& shape) {
-  std::int64_t inside = 0;
-  for (const std::uint8_t v : shape.values()) inside += v;
-  return static_cast<double>(inside) / static_cast<double>(shape.count());
-}
-
-Pixel turnedStep(Pixel step, int turn) {
+Vec3i turnedAboutZ(Vec3i step, int turn) {
   if (turn >= 4) step.x = -step.x;
-  for (int t = 0; t < turn % 4; ++t) step = {-step.y, step.x};
+  for (int t = 0; t < turn % 4; ++t) step = {-step.y, step.x, step.z};
   return step;
 }
 
-BoundaryPatches::BoundaryPatches(const Shape& shape, std::span<const Pixel> centers, int side,
-                                 int turns, bool wraps)
+BoundaryPatches::BoundaryPatches(const ShapePlanes& planes, std::span<const Vec3i> centers,
+                                 int side, int turns, bool wraps)
     : side_(side),
-      words_((side * side + 63) / 64),
+      cells_(patchCells(planes.size(), side)),
       symmetries_(symmetriesOf(turns)),
       centers_(centers.begin(), centers.end()),
       whole_(centers.size(), 1),
       inside_(centers.size()) {
+  const Vec3i& size = planes.size();
+  const int planeWords = (cells_ + 63) / 64;
+  words_ = planeWords * static_cast<int>(planes.shapes.size());
+  wholeWords_ = planeWords * static_cast<int>(planes.whole);
   const std::size_t each = symmetries_.size() * static_cast<std::size_t>(words_);
   bits_.resize(centers_.size() * each);
-  const int half = side / 2;
+  const int half = side / 2, halfDepth = patchDepth(size, side) / 2;
   if (!wraps) {
+    const Vec3i reach{half, half, halfDepth};
     for (std::size_t p = 0; p < centers_.size(); ++p) {
-      const Pixel& c = centers_[p];
-      whole_[p] = shape.contains(c.x - half, c.y - half) && shape.contains(c.x + half, c.y + half);
+      const Vec3i low = centers_[p] - reach, high = centers_[p] + reach;
+      const Shape& shape = *planes.shapes.front();
+      whole_[p] = shape.contains(low) && shape.contains(high);
     }
     if (std::ranges::find(whole_, 0) != whole_.end()) known_.resize(bits_.size());
   }
+  // Where a row of a patch goes on along x, for each orientation.
+  std::vector<Vec3i> alongX;
+  for (const int symmetry : symmetries_) alongX.push_back(turnedAboutZ({1, 0, 0}, symmetry));
   parallelFor(0, centers_.size(), 256, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
-      const Pixel& c = centers_[p];
       for (std::size_t t = 0; t < symmetries_.size(); ++t) {
         const std::size_t at = p * each + t * static_cast<std::size_t>(words_);
         std::size_t bit = 0;
-        for (int dy = -half; dy <= half; ++dy) {
-          for (int dx = -half; dx <= half; ++dx, ++bit) {
-            const Pixel step = turnedStep({dx, dy}, symmetries_[t]);
-            const int x = c.x + step.x, y = c.y + step.y;
-            const bool known = wraps || shape.contains(x, y);
-            const bool inside = known && shape[shape.wrapped(x, y)];
-            bits_[at + bit / 64] |= std::uint64_t{inside} << bit % 64;
-            if (!whole_[p]) known_[at + bit / 64] |= std::uint64_t{known} << bit % 64;
-            if (t == 0) inside_[p] += inside;
+        for (int dz = -halfDepth; dz <= halfDepth; ++dz) {
+          for (int dy = -half; dy <= half; ++dy) {
+            Vec3i place = centers_[p] + turnedAboutZ({-half, dy, dz}, symmetries_[t]);
+            for (int dx = -half; dx <= half; ++dx, ++bit, place += alongX[t]) {
+              const bool known = whole_[p] || planes.shapes.front()->contains(place);
+              if (!known) continue;
+              const std::size_t from =
+                  planes.shapes.front()->index(wraps ? wrappedPlace(place, size) : place);
+              std::size_t word = at + bit / 64;
+              for (const Shape* shape : planes.shapes) {
+                bits_[word] |= std::uint64_t{shape->data()[from] != 0} << bit % 64;
+                if (!whole_[p]) known_[word] |= std::uint64_t{1} << bit % 64;
+                word += static_cast<std::size_t>(planeWords);
+              }
+              if (t == 0) inside_[p] += planes.shapes.front()->data()[from] != 0;
+            }
           }
         }
       }
@@ -169,10 +130,13 @@ BoundaryPatches::BoundaryPatches(const Shape& shape, std::span<const Pixel> cent
 int patchDistance(const BoundaryPatches& set, std::size_t a, const BoundaryPatches& examples,
                   std::size_t b, int turn) {
   const std::uint64_t* known = examples.known(b, turn);
-  if (!known) return differing(set.bits(a, 0), examples.bits(b, turn), set.words());
+  const int whole = set.wholeWords(), words = set.words();
+  if (!known) return differing(set.bits(a, 0), examples.bits(b, turn), whole, words);
   int sum = 0, count = 0;
-  differingAndKnown(set.bits(a, 0), examples.bits(b, turn), known, set.words(), sum, count);
-  return static_cast<int>(std::lround(static_cast<double>(sum) * set.side() * set.side() / count));
+  differingAndKnown(set.bits(a, 0), examples.bits(b, turn), known, whole, words, sum, count);
+  // Each plane knows the same cells.
+  const int planes = (whole > 0 ? whole : words) / ((set.cells() + 63) / 64);
+  return static_cast<int>(std::lround(static_cast<double>(sum) * set.cells() * planes / count));
 }
 
 NearestPatches::NearestPatches(const BoundaryPatches& examples) : examples_(&examples) {
@@ -183,15 +147,15 @@ NearestPatches::NearestPatches(const BoundaryPatches& examples) : examples_(&exa
 
 void NearestPatches::find(const BoundaryPatches& set, std::size_t patch, std::size_t wanted,
                           std::span<const std::uint32_t> left,
-                          std::vector<PatchMatch2D>& found) const {
+                          std::vector<BoundaryMatch>& found) const {
   const BoundaryPatches& examples = *examples_;
   found.clear();
-  const auto nearer = [](const PatchMatch2D& a, const PatchMatch2D& b) {
+  const auto nearer = [](const BoundaryMatch& a, const BoundaryMatch& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.patch < b.patch;
   };
   const auto offer = [&](std::uint32_t p, int distance, int turn) {
-    const PatchMatch2D match{p, static_cast<std::uint16_t>(turn),
-                             static_cast<std::uint16_t>(distance)};
+    const BoundaryMatch match{p, static_cast<std::uint16_t>(turn),
+                              static_cast<std::uint16_t>(distance)};
     if (found.size() == wanted && !nearer(match, found.back())) return;
     if (found.size() == wanted) found.pop_back();
     found.insert(std::ranges::upper_bound(found, match, nearer), match);
@@ -200,13 +164,13 @@ void NearestPatches::find(const BoundaryPatches& set, std::size_t patch, std::si
   const auto visit = [&](std::uint32_t p) {
     if (!left.empty() && left[p] == 0) return;
     int turn = 0;
-    const int distance =
-        nearestTurn(bits, examples.bits(p, 0), examples.words(), examples.turns(), &turn);
+    const int distance = nearestTurn(bits, examples.bits(p, 0), examples.wholeWords(),
+                                     examples.words(), examples.turns(), &turn);
     offer(p, distance, turn);
   };
   const int inside = set.inside(patch);
   const auto limit = [&] { return found.size() < wanted ? 1 << 30 : int{found.back().distance}; };
-  // Outward from the patches with as many inside pixels.
+  // Outward from the patches with as many inside cells.
   auto up = static_cast<std::size_t>(
       std::ranges::lower_bound(byInside_, inside, {},
                                [&](std::uint32_t p) { return examples.inside(p); }) -

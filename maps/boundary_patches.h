@@ -8,81 +8,86 @@
 #include <span>
 #include <vector>
 
-#include "maps/grid.h"
+#include "maps/shape.h"
 
-/// Shapes, and the patches around the pixels of their boundary: what layered shape synthesis
-/// compares (Rosenberger, Cohen-Or, Lischinski 2009, section 3.1).
+/// The patches around the cells of shapes' boundaries: what layered shape synthesis compares
+/// (Rosenberger, Cohen-Or, Lischinski 2009, section 3.1).
 namespace exemplar {
 
-/// A shape: 1 inside, 0 outside.
-using Shape = Grid<std::uint8_t>;
+/// The `turn`th of the eight symmetries of the square, 0..7, applied to a step: quarter turns about
+/// z, then (from 4 on) the same of the mirror image. Up stays up.
+Vec3i turnedAboutZ(Vec3i step, int turn);
+/// The same in the plane.
+inline Pixel turnedStep(Pixel step, int turn) {
+  const Vec3i turned = turnedAboutZ({step.x, step.y, 0}, turn);
+  return {turned.x, turned.y};
+}
 
-/// The boundary: pixels inside that have one of their four neighbors outside, row by row. With
-/// `wraps` the grid is a torus; else what lies beyond it counts as neither.
-std::vector<Pixel> boundaryOf(const Shape& shape, bool wraps);
+/// Several shapes on one grid that are compared together: of the first `whole` of them a cell that
+/// differs counts 1, of the others one half.
+struct ShapePlanes {
+  std::vector<const Shape*> shapes;
+  std::size_t whole = 1;
 
-/// The share of pixels inside.
-double areaOf(const Shape& shape);
+  ShapePlanes(const Shape& shape) : shapes{&shape} {}
+  ShapePlanes(std::vector<const Shape*> all, std::size_t whole_)
+      : shapes(std::move(all)), whole(whole_) {}
+  const Vec3i& size() const { return shapes.front()->size(); }
+};
 
-/// The sizes of the components of pixels of one value (1 inside, 0 outside) that are connected by
-/// sides, in pixels, in the order of their first pixels.
-std::vector<std::uint32_t> componentSizes(const Shape& shape, bool inside, bool wraps);
-/// Turns components of fewer pixels over: `inside` is the least size of what is inside, `outside`
-/// of what is not.
-void removeSmall(Shape& shape, std::uint32_t inside, std::uint32_t outside, bool wraps);
-
-/// The `turn`th of the eight symmetries of the square, 0..7, applied to a step: quarter turns, then
-/// (from 4 on) the same of the mirror image.
-Pixel turnedStep(Pixel step, int turn);
-
-/// Patches of `side` x `side` pixels around boundary pixels, packed into bits, in several
-/// orientations.
+/// Patches of `side` cells along each axis around boundary cells, packed into bits, in several
+/// orientations; flat where the shape is.
 class BoundaryPatches {
  public:
   /// Longest side of a patch.
   static constexpr int kMostSide = 31;
 
   BoundaryPatches() = default;
-  /// The patches of `shape` around `centers`, in the first `turns` orientations (1, 2, 4 or 8; 2
-  /// are 0 and 180 degrees). Pixels beyond a shape that does not wrap are unknown: they count in no
-  /// distance. O(centers x turns x side²).
-  BoundaryPatches(const Shape& shape, std::span<const Pixel> centers, int side, int turns,
+  /// The patches of `planes` around `centers`, in the first `turns` orientations (1, 2, 4 or 8; 2
+  /// are 0 and 180 degrees). Cells beyond a shape that does not wrap are unknown: they count in no
+  /// distance. O(centers x turns x cells of a patch).
+  BoundaryPatches(const ShapePlanes& planes, std::span<const Vec3i> centers, int side, int turns,
                   bool wraps);
 
   std::size_t count() const { return centers_.size(); }
   int side() const { return side_; }
+  /// Of one plane of a patch.
+  int cells() const { return cells_; }
   int turns() const { return static_cast<int>(symmetries_.size()); }
   int words() const { return words_; }
-  const Pixel& center(std::size_t patch) const { return centers_[patch]; }
+  /// How many of the words, the first ones, count whole.
+  int wholeWords() const { return wholeWords_; }
+  const Vec3i& center(std::size_t patch) const { return centers_[patch]; }
   /// Which symmetry an orientation is.
   int symmetry(int turn) const { return symmetries_[static_cast<std::size_t>(turn)]; }
   const std::uint64_t* bits(std::size_t patch, int turn) const {
     return &bits_[(patch * symmetries_.size() + static_cast<std::size_t>(turn)) * words()];
   }
-  /// Which pixels are known; null where all are.
+  /// Which cells are known; null where all are.
   const std::uint64_t* known(std::size_t patch, int turn) const {
     return whole_[patch]
                ? nullptr
                : &known_[(patch * symmetries_.size() + static_cast<std::size_t>(turn)) * words()];
   }
   bool whole(std::size_t patch) const { return whole_[patch] != 0; }
-  /// How many pixels of the patch are inside; the same in every orientation.
+  /// How many cells of the patch are inside the first shape; the same in every orientation.
   int inside(std::size_t patch) const { return inside_[patch]; }
 
  private:
-  int side_ = 0, words_ = 0;
+  int side_ = 0, cells_ = 0, words_ = 0, wholeWords_ = 0;
   std::vector<int> symmetries_;
-  std::vector<Pixel> centers_;
+  std::vector<Vec3i> centers_;
   std::vector<std::uint64_t> bits_, known_;
   std::vector<std::uint8_t> whole_;
   std::vector<int> inside_;
 };
 
 /// A patch of an example as the likeness of another patch.
-struct PatchMatch2D {
+struct BoundaryMatch {
   std::uint32_t patch = 0;
   std::uint16_t turn = 0;
-  /// Pixels that differ (equation 1); of those that are known, as a share of all.
+  /// Cells that differ (equation 1), each as its plane counts; of those that are known, as a share
+  /// of all.
   std::uint16_t distance = 0;
 };
 
@@ -90,7 +95,7 @@ struct PatchMatch2D {
 int patchDistance(const BoundaryPatches& set, std::size_t a, const BoundaryPatches& examples,
                   std::size_t b, int turn);
 
-/// Finds the nearest patches of an example, exactly: no patch whose count of inside pixels differs
+/// Finds the nearest patches of an example, exactly: no patch whose count of inside cells differs
 /// by more than the distance can be nearer, so that patches are visited by that count.
 class NearestPatches {
  public:
@@ -99,11 +104,11 @@ class NearestPatches {
   /// The `wanted` nearest different patches, nearest first, each in its best orientation; only of
   /// those whose `left` is above 0, where it is not empty. Equal distances: lower numbers first.
   void find(const BoundaryPatches& set, std::size_t patch, std::size_t wanted,
-            std::span<const std::uint32_t> left, std::vector<PatchMatch2D>& found) const;
+            std::span<const std::uint32_t> left, std::vector<BoundaryMatch>& found) const;
 
  private:
   const BoundaryPatches* examples_;
-  std::vector<std::uint32_t> byInside_;  // whole patches, by their count of inside pixels
+  std::vector<std::uint32_t> byInside_;  // whole patches, by their count of inside cells
   std::vector<std::uint32_t> partial_;   // the others
 };
 

@@ -68,29 +68,31 @@ void applyToLine(Envelope& envelope, std::vector<double>& line, bool wraps) {
 
 }  // namespace
 
-Grid<float> distanceTo(const Grid<std::uint8_t>& shape, bool wraps) {
-  const int width = shape.width(), height = shape.height();
-  Grid<double> squared(width, height, kFar);
-  parallelFor(0, static_cast<std::size_t>(width), 32, [&](std::size_t first, std::size_t last) {
-    Envelope envelope;
-    std::vector<double> line(static_cast<std::size_t>(height));
-    for (auto x = static_cast<int>(first); x < static_cast<int>(last); ++x) {
-      for (int y = 0; y < height; ++y) line[static_cast<std::size_t>(y)] = shape(x, y) ? 0 : kFar;
-      applyToLine(envelope, line, wraps);
-      for (int y = 0; y < height; ++y) squared(x, y) = line[static_cast<std::size_t>(y)];
-    }
-  });
-  Grid<float> distance(width, height);
-  parallelFor(0, static_cast<std::size_t>(height), 32, [&](std::size_t first, std::size_t last) {
-    Envelope envelope;
-    std::vector<double> line(static_cast<std::size_t>(width));
-    for (auto y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
-      for (int x = 0; x < width; ++x) line[static_cast<std::size_t>(x)] = squared(x, y);
-      applyToLine(envelope, line, wraps);
-      for (int x = 0; x < width; ++x)
-        distance(x, y) = static_cast<float>(std::sqrt(line[static_cast<std::size_t>(x)]));
-    }
-  });
+Array3D<float> distanceTo(const Shape& shape, bool wraps) {
+  const Vec3i& size = shape.size();
+  Array3D<double> squared(size);
+  for (std::size_t p = 0; p < shape.count(); ++p) squared.data()[p] = shape.data()[p] ? 0 : kFar;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int n = size[axis];
+    if (n == 1) continue;
+    const Vec3i along{axis == 0, axis == 1, axis == 2};
+    Vec3i lines = size;
+    lines[axis] = 1;
+    const Array3D<std::uint8_t> starts(lines);
+    parallelFor(0, starts.count(), 32, [&](std::size_t first, std::size_t last) {
+      Envelope envelope;
+      std::vector<double> line(static_cast<std::size_t>(n));
+      for (std::size_t l = first; l < last; ++l) {
+        const Vec3i start = starts.ijk(l);
+        for (int x = 0; x < n; ++x) line[static_cast<std::size_t>(x)] = squared[start + along * x];
+        applyToLine(envelope, line, wraps);
+        for (int x = 0; x < n; ++x) squared[start + along * x] = line[static_cast<std::size_t>(x)];
+      }
+    });
+  }
+  Array3D<float> distance(size);
+  for (std::size_t p = 0; p < shape.count(); ++p)
+    distance.data()[p] = static_cast<float>(std::sqrt(squared.data()[p]));
   return distance;
 }
 

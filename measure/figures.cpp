@@ -262,7 +262,7 @@ std::vector<Figure> figures(const LayersLikeness& l) {
   list.group("layers");
   for (const LayerLikeness& layer : l.layers) {
     const std::string name = "layer" + std::to_string(layer.layer) + "_";
-    list.add(name + "area_error", layer.areaError, "share of pixels less the example's; 0 is best");
+    list.add(name + "area_error", layer.areaError, "share of cells less the example's; 0 is best");
     list.add(name + "boundary_ratio", layer.boundaryRatio,
              "boundary over the example's; 1 is best");
     list.add(name + "to_example", layer.toExample,

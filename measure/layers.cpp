@@ -8,58 +8,63 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "maps/boundary_patches.h"
 #include "measure/distribution.h"
 
 namespace exemplar {
 namespace {
 
-constexpr int kPatch = 15;
 constexpr std::size_t kLookedUp = 2000, kLookedAmong = 20000;
-constexpr int kWindow = 32;
 constexpr std::size_t kWindows = 150;
 
+/// Sides of the patches and windows that are compared: flat, and in space.
+int patchSide(const Vec3i& size) { return size.z == 1 ? 15 : 9; }
+Vec3i windowOf(const Vec3i& size) { return size.z == 1 ? Vec3i{32, 32, 1} : Vec3i{16, 16, 16}; }
+
 /// Every so many-th of them, at most `most`.
-std::vector<Pixel> thinned(const std::vector<Pixel>& all, std::size_t most) {
-  std::vector<Pixel> some;
+std::vector<Vec3i> thinned(const std::vector<Vec3i>& all, std::size_t most) {
+  std::vector<Vec3i> some;
   const std::size_t count = std::min(all.size(), most);
   for (std::size_t n = 0; n < count; ++n) some.push_back(all[n * all.size() / count]);
   return some;
 }
 
-/// The boundary pixels whose patches lie inside, while a quarter does.
-std::vector<Pixel> patchCenters(const Shape& shape, bool wraps) {
-  std::vector<Pixel> all = boundaryOf(shape, wraps), whole;
+/// The boundary cells whose patches lie inside, while a quarter does.
+std::vector<Vec3i> patchCenters(const Shape& shape, bool wraps) {
+  std::vector<Vec3i> all = boundaryOf(shape, wraps), whole;
   if (wraps) return all;
-  constexpr int kHalf = kPatch / 2;
-  for (const Pixel& p : all)
-    if (shape.contains(p.x - kHalf, p.y - kHalf) && shape.contains(p.x + kHalf, p.y + kHalf))
-      whole.push_back(p);
+  const int side = patchSide(shape.size()), half = side / 2;
+  const Vec3i reach{half, half, patchDepth(shape.size(), side) / 2};
+  for (const Vec3i& p : all)
+    if (shape.contains(p - reach) && shape.contains(p + reach)) whole.push_back(p);
   return 4 * whole.size() >= all.size() ? whole : all;
 }
 
 /// The mean distance of patches of one shape to their nearest of another, as a share of a patch.
 std::optional<double> meanDistance(const Shape& from, bool fromWraps, const Shape& to, bool toWraps,
                                    const Progress& progress) {
-  const std::vector<Pixel> some = thinned(patchCenters(from, fromWraps), kLookedUp);
-  const std::vector<Pixel> among = thinned(patchCenters(to, toWraps), kLookedAmong);
+  const std::vector<Vec3i> some = thinned(patchCenters(from, fromWraps), kLookedUp);
+  const std::vector<Vec3i> among = thinned(patchCenters(to, toWraps), kLookedAmong);
   if (some.empty() || among.empty()) return std::nullopt;
-  const BoundaryPatches patches(from, some, kPatch, 1, fromWraps);
-  const BoundaryPatches others(to, among, kPatch, 4, toWraps);
+  const int side = patchSide(from.size());
+  const BoundaryPatches patches(from, some, side, 1, fromWraps);
+  const BoundaryPatches others(to, among, side, 4, toWraps);
   const NearestPatches nearest(others);
   return parallelSum<double>(0, patches.count(), 64,
                              [&](std::size_t first, std::size_t last) {
                                progress.check();
                                double sum = 0;
-                               std::vector<PatchMatch2D> found;
+                               std::vector<BoundaryMatch> found;
                                for (std::size_t p = first; p < last; ++p) {
                                  nearest.find(patches, p, 1, {}, found);
                                  sum += found.front().distance;
                                }
                                return sum;
                              }) /
-         static_cast<double>(patches.count()) / (kPatch * kPatch);
+         static_cast<double>(patches.count()) / patches.cells();
 }
 
 std::vector<double> sortedSizes(const Shape& shape, bool wraps) {
@@ -69,49 +74,60 @@ std::vector<double> sortedSizes(const Shape& shape, bool wraps) {
   return sizes;
 }
 
-/// Whether the windows at two places agree but for `most` pixels.
-bool agree(const LayerMap& map, const Pixel& a, const Pixel& b, int most) {
+/// Whether the windows at two places agree but for `most` cells.
+bool agree(const LayerVolume& map, const Vec3i& window, const Vec3i& a, const Vec3i& b, int most) {
   int differing = 0;
-  for (int y = 0; y < kWindow; ++y) {
-    for (int x = 0; x < kWindow; ++x) differing += map(a.x + x, a.y + y) != map(b.x + x, b.y + y);
-    if (differing > most) return false;
+  for (int z = 0; z < window.z; ++z) {
+    for (int y = 0; y < window.y; ++y) {
+      const std::uint8_t* rowA = map.data() + map.index(a + Vec3i{0, y, z});
+      const std::uint8_t* rowB = map.data() + map.index(b + Vec3i{0, y, z});
+      for (int x = 0; x < window.x; ++x) differing += rowA[x] != rowB[x];
+      if (differing > most) return false;
+    }
   }
   return true;
 }
 
-std::optional<double> repeatedShare(const LayerMap& map, const Progress& progress) {
-  const int columns = map.width() - kWindow + 1, rows = map.height() - kWindow + 1;
-  if (columns < kWindow || rows < 1) return std::nullopt;
-  // Places on a grid, as many as are wanted.
-  const std::size_t places = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  std::vector<Pixel> windows;
+/// Windows of two layers or more, spread over the map.
+std::vector<Vec3i> mixedWindows(const LayerVolume& map, const Vec3i& window, const Vec3i& places) {
+  const auto count = static_cast<std::size_t>(volume(places));
+  std::vector<Vec3i> windows;
   for (std::size_t n = 0; n < 2 * kWindows && windows.size() < kWindows; ++n) {
     // A step that is prime to most sizes spreads them evenly.
-    const std::size_t place = n * 7919 * 104729 % places;
-    const Pixel at{static_cast<int>(place % static_cast<std::size_t>(columns)),
-                   static_cast<int>(place / static_cast<std::size_t>(columns))};
+    const std::size_t place = n * 7919 * 104729 % count;
+    const auto nx = static_cast<std::size_t>(places.x), ny = static_cast<std::size_t>(places.y);
+    const Vec3i at{static_cast<int>(place % nx), static_cast<int>(place / nx % ny),
+                   static_cast<int>(place / (nx * ny))};
     bool mixed = false;
-    for (int y = 0; y < kWindow && !mixed; ++y)
-      for (int x = 0; x < kWindow; ++x) mixed |= map(at.x + x, at.y + y) != map(at.x, at.y);
+    forEachCell(CellBox{at, at + window}, [&](const Vec3i& p) { mixed |= map[p] != map[at]; });
     if (mixed) windows.push_back(at);
   }
+  return windows;
+}
+
+std::optional<double> repeatedShare(const LayerVolume& map, const Progress& progress) {
+  const Vec3i window = windowOf(map.size());
+  const Vec3i places = map.size() - window + Vec3i{1, 1, 1};
+  if (places.x < window.x || places.y < 1 || places.z < 1) return std::nullopt;
+  const std::vector<Vec3i> windows = mixedWindows(map, window, places);
   if (windows.empty()) return std::nullopt;
-  constexpr int kMost = kWindow * kWindow * 3 / 100;
+  const auto most = static_cast<int>(volume(window) * 3 / 100);
+  // Most places differ in a few of eight cells on the diagonal already.
+  const Vec3i probe{window.x / 8, window.y / 8, window.z / 8};
   std::vector<std::uint8_t> again(windows.size());
   parallelFor(0, windows.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t w = first; w < last; ++w) {
       progress.check();
-      const Pixel& a = windows[w];
-      for (int y = 0; y < rows && !again[w]; ++y) {
-        for (int x = 0; x < columns && !again[w]; ++x) {
-          if (std::abs(x - a.x) < kWindow && std::abs(y - a.y) < kWindow) continue;
-          // Most places differ in a few pixels already.
-          int probes = 0;
-          for (int k = 0; k < 8; ++k)
-            probes += map(a.x + 4 * k, a.y + 4 * k) != map(x + 4 * k, y + 4 * k);
-          if (probes <= 3) again[w] = agree(map, a, {x, y}, kMost);
-        }
-      }
+      const Vec3i& a = windows[w];
+      forEachCell(places, [&](const Vec3i& b) {
+        if (again[w]) return;
+        if (std::abs(b.x - a.x) < window.x && std::abs(b.y - a.y) < window.y &&
+            std::abs(b.z - a.z) < window.z)
+          return;
+        int probes = 0;
+        for (int k = 0; k < 8; ++k) probes += map[a + probe * k] != map[b + probe * k];
+        if (probes <= 3) again[w] = agree(map, window, a, b, most);
+      });
     }
   });
   return static_cast<double>(std::ranges::count(again, 1)) / static_cast<double>(again.size());
@@ -119,9 +135,11 @@ std::optional<double> repeatedShare(const LayerMap& map, const Progress& progres
 
 }  // namespace
 
-LayersLikeness measureLayers(const LayerMap& example, bool exampleWraps, const LayerMap& result,
-                             const Progress& progress) {
+LayersLikeness measureLayers(const LayerVolume& example, bool exampleWraps,
+                             const LayerVolume& result, const Progress& progress) {
   const int layers = layerCount(example);
+  if ((example.size().z == 1) != (result.size().z == 1))
+    throw InputError("the layers of a picture and of a volume cannot be compared");
   if (layerCount(result) > layers)
     throw InputError("the result has a layer " + std::to_string(layerCount(result)) +
                      ", the example has " + std::to_string(layers));
@@ -131,8 +149,7 @@ LayersLikeness measureLayers(const LayerMap& example, bool exampleWraps, const L
     const Shape e = layerShape(example, i), s = layerShape(result, i);
     LayerLikeness layer{.layer = i, .areaError = areaOf(s) - areaOf(e)};
     const auto share = [](const Shape& shape, bool wraps) {
-      return static_cast<double>(boundaryOf(shape, wraps).size()) /
-             static_cast<double>(shape.count());
+      return static_cast<double>(boundaryCount(shape, wraps)) / static_cast<double>(shape.count());
     };
     if (const double wanted = share(e, exampleWraps); wanted > 0)
       layer.boundaryRatio = share(s, true) / wanted;

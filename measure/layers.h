@@ -14,11 +14,12 @@ namespace exemplar {
 /// One layer of a result against the example's.
 struct LayerLikeness {
   int layer = 2;
-  double areaError = 0;  ///< share of pixels inside, less the example's; 0 is best
-  /// Boundary pixels per pixel over the example's; 1 is best. Nothing where the example has none.
+  double areaError = 0;  ///< share of cells inside, less the example's; 0 is best
+  /// Boundary cells per cell over the example's; 1 is best. Nothing where the example has none.
   std::optional<double> boundaryRatio;
   /// The two directions of the distance of shapes (Rosenberger, Cohen-Or, Lischinski 2009,
-  /// equations 1 to 3): the mean distance of the result's boundary patches of 15 x 15 pixels to
+  /// equations 1 to 3): the mean distance of the result's boundary patches (of 15 x 15 pixels, in
+  /// space of 9 x 9 x 9 cells) to
   /// their nearest of the example (is everything here from there?), and of the example's to their
   /// nearest of the result (is everything from there here?), as shares of the patch; 0 is best.
   std::optional<double> toExample, toResult;
@@ -31,15 +32,17 @@ struct LayerLikeness {
 struct LayersLikeness {
   std::vector<LayerLikeness> layers;
   double skipping = 0, exampleSkipping = 0;  ///< `skippingShare`
-  /// Of windows of 32 x 32 pixels with two layers or more, the share that occurs elsewhere in the
-  /// same map but for 3 % of its pixels, and the same of the example. 0 is best.
+  /// Of windows of 32 x 32 pixels (in space 16 x 16 x 16 cells) with two layers or more, the share
+  /// that occurs elsewhere in the same map but for 3 % of its cells, and the same of the example. 0
+  /// is best.
   std::optional<double> repeated, exampleRepeated;
 };
 
-/// Measures a layer map, which is taken for a torus, against its example. Up to 2,000 patches of
-/// each are looked up among all (up to 20,000) of the other. The same at any number of threads.
-/// Throws `InputError` where the result has layers that the example has not, and `Cancelled`.
-LayersLikeness measureLayers(const LayerMap& example, bool exampleWraps, const LayerMap& result,
-                             const Progress& progress = {});
+/// Measures layers, flat or in space, which are taken for a torus, against their example's. Up to
+/// 2,000 patches of each are looked up among all (up to 20,000) of the other. The same at any
+/// number of threads. Throws `InputError` where the result has layers that the example has not, or
+/// one of the two is flat and the other is not, and `Cancelled`.
+LayersLikeness measureLayers(const LayerVolume& example, bool exampleWraps,
+                             const LayerVolume& result, const Progress& progress = {});
 
 }  // namespace exemplar

@@ -40,7 +40,7 @@ bool same(const std::optional<Extent>& a, const Extent& b) {
 
 /// The form that settings of reading are for: an engine's, or the source's own.
 const Engine& engineOf(const std::string& name, const Source& source) {
-  return name.empty() || name == "auto" ? engineFor(source) : engineNamed(name);
+  return name.empty() || name == "auto" ? engineFor(source) : engineNamed(name, source);
 }
 
 ReadOptions readingOf(const Settings& settings, Form form) {

@@ -18,21 +18,21 @@ constexpr std::size_t kCandidates = 8;
 /// A patch and one that may serve it.
 struct Pair {
   std::uint32_t patch;
-  PatchMatch2D match;
+  BoundaryMatch match;
   std::uint32_t order;  ///< drawn: among equals, lower first
 };
 
 /// Rounds: the cheapest pairs first, until every patch is served (figure 3).
-std::vector<PatchMatch2D> assignGreedily(const BoundaryPatches& set,
-                                         const BoundaryPatches& examples,
-                                         std::vector<std::uint32_t> left, const Random& random,
-                                         const Progress& progress) {
+std::vector<BoundaryMatch> assignGreedily(const BoundaryPatches& set,
+                                          const BoundaryPatches& examples,
+                                          std::vector<std::uint32_t> left, const Random& random,
+                                          const Progress& progress) {
   const NearestPatches nearest(examples);
-  std::vector<PatchMatch2D> served(set.count());
+  std::vector<BoundaryMatch> served(set.count());
   std::vector<std::uint32_t> waiting(set.count());
   std::iota(waiting.begin(), waiting.end(), 0u);
   for (std::uint32_t round = 0; !waiting.empty(); ++round) {
-    std::vector<std::vector<PatchMatch2D>> candidates(waiting.size());
+    std::vector<std::vector<BoundaryMatch>> candidates(waiting.size());
     parallelFor(0, waiting.size(), 64, [&](std::size_t first, std::size_t last) {
       progress.check();
       for (std::size_t n = first; n < last; ++n)
@@ -40,7 +40,7 @@ std::vector<PatchMatch2D> assignGreedily(const BoundaryPatches& set,
     });
     std::vector<Pair> pairs;
     for (std::size_t n = 0; n < waiting.size(); ++n) {
-      for (const PatchMatch2D& match : candidates[n]) {
+      for (const BoundaryMatch& match : candidates[n]) {
         const auto order =
             static_cast<std::uint32_t>(random.bits(waiting[n], round * 8191 + match.patch));
         pairs.push_back({waiting[n], match, order});
@@ -64,9 +64,10 @@ std::vector<PatchMatch2D> assignGreedily(const BoundaryPatches& set,
 }
 
 /// Shortest augmenting paths with potentials (Jonker, Volgenant 1987), one row after another.
-std::vector<PatchMatch2D> assignExactly(const BoundaryPatches& set, const BoundaryPatches& examples,
-                                        const std::vector<std::uint32_t>& uses,
-                                        const Progress& progress) {
+std::vector<BoundaryMatch> assignExactly(const BoundaryPatches& set,
+                                         const BoundaryPatches& examples,
+                                         const std::vector<std::uint32_t>& uses,
+                                         const Progress& progress) {
   // A column for each use of a patch.
   std::vector<std::uint32_t> columns;
   for (std::uint32_t e = 0; e < uses.size(); ++e) columns.insert(columns.end(), uses[e], e);
@@ -128,7 +129,7 @@ std::vector<PatchMatch2D> assignExactly(const BoundaryPatches& set, const Bounda
     } while (rowOf[column] != 0);
     for (; column != 0; column = cameFrom[column]) rowOf[column] = rowOf[cameFrom[column]];
   }
-  std::vector<PatchMatch2D> served(n);
+  std::vector<BoundaryMatch> served(n);
   for (std::size_t c = 1; c <= n; ++c) {
     const std::size_t s = rowOf[c] - 1;
     const auto e = static_cast<int>(columns[c - 1]);
@@ -152,9 +153,10 @@ std::vector<std::uint32_t> fairUses(std::size_t wanted, std::size_t examples,
   return uses;
 }
 
-std::vector<PatchMatch2D> assignPatches(const BoundaryPatches& set, const BoundaryPatches& examples,
-                                        std::vector<std::uint32_t> uses, AssignmentKind kind,
-                                        const Random& random, const Progress& progress) {
+std::vector<BoundaryMatch> assignPatches(const BoundaryPatches& set,
+                                         const BoundaryPatches& examples,
+                                         std::vector<std::uint32_t> uses, AssignmentKind kind,
+                                         const Random& random, const Progress& progress) {
   if (kind == AssignmentKind::Exact && set.count() <= kMostExact)
     return assignExactly(set, examples, uses, progress);
   return assignGreedily(set, examples, std::move(uses), random, progress);

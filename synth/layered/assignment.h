@@ -26,8 +26,9 @@ std::vector<std::uint32_t> fairUses(std::size_t wanted, std::size_t examples, co
 /// Gives every patch of `set` one of `examples`, each of which serves exactly `uses` times: the
 /// transportation problem that stands behind equation 3 (section 3.2, boundary patch matching).
 /// The sum of `uses` is the size of `set`. The same at any number of threads. Throws `Cancelled`.
-std::vector<PatchMatch2D> assignPatches(const BoundaryPatches& set, const BoundaryPatches& examples,
-                                        std::vector<std::uint32_t> uses, AssignmentKind kind,
-                                        const Random& random, const Progress& progress = {});
+std::vector<BoundaryMatch> assignPatches(const BoundaryPatches& set,
+                                         const BoundaryPatches& examples,
+                                         std::vector<std::uint32_t> uses, AssignmentKind kind,
+                                         const Random& random, const Progress& progress = {});
 
 }  // namespace exemplar

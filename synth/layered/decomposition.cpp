@@ -208,51 +208,9 @@ void removeSpecks(LayerMap& map) {
   }
 }
 
-std::vector<double> sharesOf(const LayerMap& map, int layers) {
-  std::vector<double> shares(static_cast<std::size_t>(layers));
-  for (const std::uint8_t k : map.values())
-    shares[k - 1u] += 1.0 / static_cast<double>(map.count());
-  return shares;
-}
-
-/// The order of clusters in which the smallest share of steps skips one; the larger end first.
-std::vector<int> bestOrder(const LayerMap& map, int layers) {
-  Grid<double> steps(layers + 1, layers + 1);
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      if (x > 0) ++steps(map(x, y), map(x - 1, y));
-      if (y > 0) ++steps(map(x, y), map(x, y - 1));
-    }
-  }
-  std::vector<int> order(static_cast<std::size_t>(layers)), best;
-  std::iota(order.begin(), order.end(), 1);
-  double most = -1;
-  do {
-    double kept = 0;
-    for (std::size_t n = 1; n < order.size(); ++n)
-      kept += steps(order[n], order[n - 1]) + steps(order[n - 1], order[n]);
-    if (kept > most) {
-      most = kept;
-      best = order;
-    }
-  } while (std::ranges::next_permutation(order).found);
-  const std::vector<double> shares = sharesOf(map, layers);
-  if (shares[static_cast<std::size_t>(best.back() - 1)] >
-      shares[static_cast<std::size_t>(best.front() - 1)])
-    std::ranges::reverse(best);
-  return best;
-}
-
-void renumber(LayerMap& map, const std::vector<int>& order) {
-  std::array<std::uint8_t, kMostLayers + 1> number{};
-  for (std::size_t n = 0; n < order.size(); ++n)
-    number[static_cast<std::size_t>(order[n])] = static_cast<std::uint8_t>(n + 1);
-  for (std::uint8_t& k : map.values()) k = number[k];
-}
-
 /// Numbers clusters by their size, the largest first.
-void numberBySize(LayerMap& map, int layers) {
-  const std::vector<double> shares = sharesOf(map, layers);
+void numberBySize(LayerVolume& map, int layers) {
+  const std::vector<double> shares = layerShares(map, layers);
   std::vector<int> order(static_cast<std::size_t>(layers));
   std::iota(order.begin(), order.end(), 1);
   std::ranges::stable_sort(order, std::greater{},
@@ -278,9 +236,9 @@ Grid<float> smoothed(const Grid<float>& values) {
   return both;
 }
 
-Decomposition finished(LayerMap map, int layers) {
+Decomposition finished(LayerVolume map, int layers) {
   Decomposition result;
-  result.shares = sharesOf(map, layers);
+  result.shares = layerShares(map, layers);
   result.skipping = skippingShare(map);
   result.map = std::move(map);
   for (const double share : result.shares) {
@@ -297,6 +255,10 @@ Decomposition decomposeTexture(const MapLayer& texture, const DecompositionOptio
                                std::uint64_t seed, const Progress& progress) {
   const Random random(seed, stream::kLayerClusters);
   const Grid<float>& first = texture.planes.front();
+  const bool plain = std::ranges::all_of(texture.planes, [](const Grid<float>& plane) {
+    return std::ranges::count(plane.values(), plane[0]) == std::ssize(plane.values());
+  });
+  if (plain) throw InputError("the example has one color, and so no layers");
   const Matrix points =
       features(texture, options.neighborhood, random.fork(1), progress.part(0, 0.6));
   const Eigen::Index step = std::max<Eigen::Index>(1, points.rows() / kClustered);
@@ -321,15 +283,18 @@ Decomposition decomposeTexture(const MapLayer& texture, const DecompositionOptio
   });
   map = majorityFiltered(map);
   removeSpecks(map);
-  numberBySize(map, options.layers);
-  renumber(map, options.order.empty() ? bestOrder(map, options.layers) : options.order);
+  LayerVolume layers = boxOf(map);
+  numberBySize(layers, options.layers);
+  renumber(layers, options.order.empty() ? orderOfLayers(layers, options.layers) : options.order);
   progress.report("finding layers", 1);
-  return finished(std::move(map), options.layers);
+  return finished(std::move(layers), options.layers);
 }
 
 Decomposition decomposeHeights(const Grid<float>& heights, const DecompositionOptions& options,
                                const Progress& progress) {
   progress.report("finding layers", 0);
+  if (std::ranges::count(heights.values(), heights[0]) == std::ssize(heights.values()))
+    throw InputError("the example has one height, and so no layers");
   const Grid<float> smooth = smoothed(heights);
   std::vector<float> sorted(smooth.values().begin(), smooth.values().end());
   std::ranges::sort(sorted);
@@ -341,7 +306,7 @@ Decomposition decomposeHeights(const Grid<float>& heights, const DecompositionOp
       if (smooth[p] >= sorted[at] && sorted[at] > sorted.front())
         map[p] = static_cast<std::uint8_t>(i + 1);
   }
-  return finished(std::move(map), options.layers);
+  return finished(boxOf(map), options.layers);
 }
 
 }  // namespace exemplar

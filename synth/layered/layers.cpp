@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/cells.h"
 #include "core/random_streams.h"
 #include "maps/distance_transform.h"
 #include "maps/halved.h"
@@ -19,83 +20,107 @@ namespace {
 /// One layer of the example at every resolution, finest first.
 using ShapePyramid = std::vector<Shape>;
 
-std::int64_t pixelsOf(double share, std::size_t count) {
+std::int64_t cellsOf(double share, std::size_t count) {
   return static_cast<std::int64_t>(std::llround(share * static_cast<double>(count)));
 }
 
-/// The `wanted` pixels of the largest values, as a shape; ties by a second value, then by lot.
-Shape largest(const Grid<float>& values, const Grid<float>& second, std::int64_t wanted,
+/// The `wanted` cells of the largest values, as a shape; ties by a second value, then by lot.
+Shape largest(const Array3D<float>& values, const Array3D<float>& second, std::int64_t wanted,
               const Random& random) {
   std::vector<std::size_t> order(values.count());
   for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
+  const float *first = values.data(), *then = second.data();
   const auto before = [&](std::size_t a, std::size_t b) {
-    if (values[a] != values[b]) return values[a] > values[b];
-    if (second[a] != second[b]) return second[a] > second[b];
+    if (first[a] != first[b]) return first[a] > first[b];
+    if (then[a] != then[b]) return then[a] > then[b];
     const std::uint64_t ra = random.bits(a), rb = random.bits(b);
     return ra != rb ? ra < rb : a < b;
   };
   wanted = std::clamp<std::int64_t>(wanted, 0, static_cast<std::int64_t>(order.size()));
   std::ranges::nth_element(order, order.begin() + wanted, before);
-  Shape shape(values.width(), values.height());
-  for (std::int64_t n = 0; n < wanted; ++n) shape[order[static_cast<std::size_t>(n)]] = 1;
+  Shape shape(values.size());
+  for (std::int64_t n = 0; n < wanted; ++n) shape.data()[order[static_cast<std::size_t>(n)]] = 1;
   return shape;
 }
 
-/// The mean of 3 x 3 pixels, on the torus.
-Grid<float> blurred(const Grid<float>& values) {
-  Grid<float> mean(values.width(), values.height());
-  for (int y = 0; y < values.height(); ++y) {
-    for (int x = 0; x < values.width(); ++x) {
-      float sum = 0;
+/// The mean of 3 x 3 (in space 3 x 3 x 3) cells, on the torus.
+Array3D<float> blurred(const Array3D<float>& values) {
+  const Vec3i& size = values.size();
+  const int depth = size.z == 1 ? 0 : 1;
+  Array3D<float> mean(size);
+  parallelForEachCell(size, [&](const Vec3i& p) {
+    float sum = 0;
+    for (int dz = -depth; dz <= depth; ++dz)
       for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) sum += values[values.wrapped(x + dx, y + dy)];
-      mean(x, y) = sum / 9;
-    }
-  }
+        for (int dx = -1; dx <= 1; ++dx) sum += values[wrappedPlace(p + Vec3i{dx, dy, dz}, size)];
+    mean[p] = sum / static_cast<float>(9 * (2 * depth + 1));
+  });
   return mean;
 }
 
-/// A shape at half the resolution, and so on, with its share of the pixels at each.
+/// A shape at half the resolution, and so on, with its share of the cells at each.
 ShapePyramid pyramidOf(const Shape& shape, int levels, const Random& random) {
   ShapePyramid pyramid{shape};
   const double share = areaOf(shape);
-  Grid<float> coverage(shape.width(), shape.height());
-  for (std::size_t p = 0; p < shape.count(); ++p) coverage[p] = shape[p];
+  Array3D<float> coverage(shape.size());
+  for (std::size_t p = 0; p < shape.count(); ++p) coverage.data()[p] = shape.data()[p];
   for (int l = 1; l < levels; ++l) {
     coverage = halved(coverage, false);
-    pyramid.push_back(largest(coverage, blurred(coverage), pixelsOf(share, coverage.count()),
+    pyramid.push_back(largest(coverage, blurred(coverage), cellsOf(share, coverage.count()),
                               random.fork(static_cast<std::uint64_t>(l))));
   }
   return pyramid;
 }
-
-/// Takes from each layer what is not in the one below, at every resolution.
-void nest(std::vector<ShapePyramid>& layers) {
-  for (std::size_t i = 1; i < layers.size(); ++i)
-    for (std::size_t l = 0; l < layers[i].size(); ++l)
-      for (std::size_t p = 0; p < layers[i][l].count(); ++p) layers[i][l][p] &= layers[i - 1][l][p];
+/// Every layer from the second on, each inside the one below at every resolution.
+std::vector<ShapePyramid> pyramidsOf(const LayerVolume& layers, int count, int levels,
+                                     const Random& random) {
+  std::vector<ShapePyramid> all;
+  for (int i = 2; i <= count; ++i)
+    all.push_back(
+        pyramidOf(layerShape(layers, i), levels, random.fork(static_cast<std::uint64_t>(i))));
+  for (std::size_t i = 1; i < all.size(); ++i)
+    for (std::size_t l = 0; l < all[i].size(); ++l)
+      for (std::size_t p = 0; p < all[i][l].count(); ++p)
+        all[i][l].data()[p] &= all[i - 1][l].data()[p];
+  return all;
 }
 
-Shape enlarged(const Shape& shape, int width, int height) {
-  Shape large(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      large(x, y) = shape(std::min(x / 2, shape.width() - 1), std::min(y / 2, shape.height() - 1));
+/// A hole at every resolution: cells of which any part is in it.
+ShapePyramid holePyramid(const Shape& hole, int levels) {
+  ShapePyramid pyramid{hole};
+  Array3D<float> part(hole.size());
+  for (std::size_t p = 0; p < hole.count(); ++p) part.data()[p] = hole.data()[p] ? 1.0f : 0.0f;
+  for (int l = 1; l < levels; ++l) {
+    part = halved(part, false);
+    Shape any(part.size());
+    for (std::size_t p = 0; p < any.count(); ++p) any.data()[p] = part.data()[p] > 0;
+    pyramid.push_back(std::move(any));
+  }
+  return pyramid;
+}
+
+Shape enlarged(const Shape& shape, const Vec3i& size) {
+  Shape large(size);
+  std::size_t at = 0;
+  forEachCell(size, [&](const Vec3i& p) {
+    large.data()[at++] = shape[shape.clamped({p.x / 2, p.y / 2, size.z == 1 ? 0 : p.z / 2})];
+  });
   return large;
 }
 
 /// White noise, blurred, of which the largest are inside.
-Shape randomShape(int width, int height, double share, const Random& random) {
-  Grid<float> noise(width, height);
-  for (std::size_t p = 0; p < noise.count(); ++p) noise[p] = static_cast<float>(random.uniform(p));
-  return largest(blurred(noise), noise, pixelsOf(share, noise.count()), random);
+Shape randomShape(const Vec3i& size, double share, const Random& random) {
+  Array3D<float> noise(size);
+  for (std::size_t p = 0; p < noise.count(); ++p)
+    noise.data()[p] = static_cast<float>(random.uniform(p));
+  return largest(blurred(noise), noise, cellsOf(share, noise.count()), random);
 }
 
 /// Whether part of the upper shape touches what is outside the lower one.
 bool touches(const Shape& upper, const Shape& lower, bool wraps) {
   std::size_t contacts = 0;
-  const std::vector<Pixel> boundary = boundaryOf(lower, wraps);
-  for (const Pixel& p : boundary) contacts += upper(p.x, p.y);
+  const std::vector<Vec3i> boundary = boundaryOf(lower, wraps);
+  for (const Vec3i& p : boundary) contacts += upper[p];
   return static_cast<double>(contacts) > 0.001 * static_cast<double>(boundary.size());
 }
 
@@ -104,134 +129,234 @@ struct Room {
   Shape mask, start;
 };
 
+/// `share` of the cells is the layer above's. Of what is not open the mask holds all.
 Room roomAbove(const OptimizedShape& below, const ShapeExample& example, const Shape& above,
-               const Shape* coarser, std::int64_t target, const ShapeOptions& options,
-               const Random& random) {
+               const Shape* coarser, std::int64_t target, const Shape* open,
+               const ShapeOptions& options, const Random& random) {
   const Shape& shape = below.shape;
-  const int width = shape.width(), height = shape.height();
+  const Vec3i& size = shape.size();
   const PatchVotes votes =
-      votesOf(above, example.patches, below.placed, width, height, options.exampleWraps);
+      votesOf(above, example.patches, below.placed, size, options.exampleWraps);
   const float median = votes.medianWeight(below.placed.boundary);
   const bool apart = !touches(above, example.shape, options.exampleWraps);
-  const std::vector<Pixel> edge = boundaryOf(shape, true);
+  const std::vector<Vec3i> edge = boundaryOf(shape, true);
   Room room;
   // The strictest mask that has room for the layer.
   for (const auto& [share, keepsOff] : {std::pair{0.15f, apart}, {0.0f, apart}, {0.0f, false}}) {
     room.mask = shape;
-    std::int64_t left = 0;
     for (std::size_t p = 0; p < shape.count(); ++p)
-      if (votes.weight(p) >= 0.2f * median && votes.share(p) < share) room.mask[p] = 0;
+      if (votes.weight(p) >= 0.2f * median && votes.share(p) < share) room.mask.data()[p] = 0;
     if (keepsOff)
-      for (const Pixel& p : edge) room.mask(p.x, p.y) = 0;
-    for (const std::uint8_t v : room.mask.values()) left += v;
-    if (left >= target) break;
+      for (const Vec3i& p : edge) room.mask[p] = 0;
+    if (open)
+      for (std::size_t p = 0; p < shape.count(); ++p)
+        if (!open->data()[p]) room.mask.data()[p] = shape.data()[p];
+    if (insideOf(room.mask) >= target) break;
   }
   if (!coarser) {
-    Grid<float> wish(width, height), covered(width, height);
+    Array3D<float> wish(size), covered(size);
     for (std::size_t p = 0; p < wish.count(); ++p) {
-      covered[p] = votes.weight(p);
-      wish[p] = !room.mask[p] ? -1 : votes.weight(p) > 0 ? votes.share(p) : 0.4f;
+      covered.data()[p] = votes.weight(p);
+      wish.data()[p] = !room.mask.data()[p] ? -1 : votes.weight(p) > 0 ? votes.share(p) : 0.4f;
     }
     room.start = largest(wish, covered, target, random);
   } else {
-    room.start = enlarged(*coarser, width, height);
+    room.start = enlarged(*coarser, size);
     for (std::size_t p = 0; p < shape.count(); ++p)
-      if (votes.weight(p) >= 0.4f * median) room.start[p] = votes.share(p) > 0.5f;
+      if (votes.weight(p) >= 0.4f * median) room.start.data()[p] = votes.share(p) > 0.5f;
   }
-  for (std::size_t p = 0; p < shape.count(); ++p) room.start[p] &= room.mask[p];
-  setArea(room.start, target, votes, &room.mask, random.fork(1));
+  for (std::size_t p = 0; p < shape.count(); ++p) room.start.data()[p] &= room.mask.data()[p];
+  setArea(room.start, target, votes, {.mask = &room.mask, .open = open}, random.fork(1));
   return room;
 }
 
-int levelsFor(const LayerMap& example, int width, int height, int wanted) {
+int levelsFor(const Vec3i& example, const Vec3i& size, int wanted) {
+  int side = std::min({example.x, example.y, size.x, size.y});
+  if (example.z > 1) side = std::min({side, example.z, size.z});
   int levels = 1;
-  int side = std::min({example.width(), example.height(), width, height});
   for (; levels < wanted && side / 2 >= 8; side /= 2) ++levels;
   return levels;
 }
 
-}  // namespace
-
-SynthesizedLayers synthesizeLayers(const LayerMap& example, int width, int height,
-                                   const LayerOptions& options, const Progress& progress) {
-  const int layers = layerCount(example);
-  const int levels = levelsFor(example, width, height, options.shape.levels);
-  const Random random(options.seed, stream::kLayers);
-  std::vector<ShapePyramid> wanted;
-  for (int i = 2; i <= layers; ++i)
-    wanted.push_back(
-        pyramidOf(layerShape(example, i), levels, random.fork(static_cast<std::uint64_t>(i))));
-  nest(wanted);
-
-  SynthesizedLayers result{LayerMap(width, height, 1), {}};
-  std::vector<OptimizedShape> below(static_cast<std::size_t>(levels));
-  std::vector<ShapeExample> belowExample(static_cast<std::size_t>(levels));
-  // A level has four times the pixels of the next and takes most of the time.
-  std::vector<double> until(static_cast<std::size_t>(levels) + 1, 1);
-  for (int l = 1; l <= levels; ++l)
-    until[static_cast<std::size_t>(l)] = until[static_cast<std::size_t>(l) - 1] / 4;
-  for (int i = 2; i <= layers; ++i) {
-    const Progress ofLayer = progress.part(static_cast<double>(i - 2) / (layers - 1),
-                                           static_cast<double>(i - 1) / (layers - 1));
-    const Random draws = random.fork(static_cast<std::uint64_t>(100 + i));
-    Shape coarser;
-    for (int l = levels - 1; l >= 0; --l) {
-      const auto level = static_cast<std::size_t>(l);
-      const Random own = draws.fork(level);
-      const Shape& shape = wanted[static_cast<std::size_t>(i - 2)][level];
-      ShapeExample likeness = shapeExample(shape, options.shape, own.fork(1));
-      const int w = std::max(1, width >> l), h = std::max(1, height >> l);
-      const std::size_t count = static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
-      const std::int64_t target = pixelsOf(likeness.area, count);
-      Shape start;
-      std::optional<Room> room;
-      if (i == 2) {
-        start = coarser.empty() ? randomShape(w, h, likeness.area, own.fork(2))
-                                : enlarged(coarser, w, h);
-      } else {
-        room = roomAbove(below[level], belowExample[level], shape,
-                         coarser.empty() ? nullptr : &coarser, target, options.shape, own.fork(2));
-        start = std::move(room->start);
-      }
-      OptimizedShape made =
-          optimizeShape(std::move(start), likeness, room ? &room->mask : nullptr, options.shape,
-                        own.fork(3), ofLayer.part(until[level + 1], until[level]));
-      coarser = made.shape;
-      below[level] = std::move(made);
-      belowExample[level] = std::move(likeness);
-    }
-    for (std::size_t p = 0; p < result.map.count(); ++p)
-      if (coarser[p]) result.map[p] = static_cast<std::uint8_t>(i);
-    result.areaErrors.push_back(areaOf(coarser) -
-                                areaOf(wanted[static_cast<std::size_t>(i - 2)][0]));
-  }
-  return result;
+/// The cells of a shape that are not open, set to what is given there.
+void restore(Shape& shape, const Shape* open, const Shape& given) {
+  if (!open) return;
+  for (std::size_t p = 0; p < shape.count(); ++p)
+    if (!open->data()[p]) shape.data()[p] = given.data()[p];
 }
 
-ControlMaps controlMaps(const LayerMap& example, bool exampleWraps, const LayerMap& result,
-                        const Progress& progress) {
+/// Makes the layers of one map, one after another.
+class Layering {
+ public:
+  Layering(const LayerVolume& example, const Vec3i& size, const LayerOptions& options)
+      : size_(size),
+        options_(options),
+        layers_(layerCount(example)),
+        levels_(levelsFor(example.size(), size, options.shape.levels)),
+        random_(options.seed, stream::kLayers),
+        wanted_(pyramidsOf(example, layers_, levels_, random_)),
+        below_(static_cast<std::size_t>(levels_)),
+        belowExample_(static_cast<std::size_t>(levels_)) {
+    if (options.hole) hole_ = holePyramid(*options.hole, levels_);
+    if (options.paint) {
+      levels_ = std::min(levels_, options.paintLevels);
+      painted_ = pyramidsOf(*options.paint, layers_, levels_, random_.fork(50));
+    }
+    // A level has many times the cells of the next and takes most of the time.
+    const double share = size.z > 1 ? 0.125 : 0.25;
+    until_.assign(static_cast<std::size_t>(levels_) + 1, 1);
+    for (std::size_t l = 1; l < until_.size(); ++l) until_[l] = until_[l - 1] * share;
+  }
+
+  SynthesizedLayers run(const Progress& progress) {
+    SynthesizedLayers result{LayerVolume(size_, 1), {}};
+    for (int i = 2; i <= layers_; ++i) {
+      const Progress ofLayer = progress.part(static_cast<double>(i - 2) / (layers_ - 1),
+                                             static_cast<double>(i - 1) / (layers_ - 1));
+      const Shape made = layer(i, ofLayer, result.areaErrors);
+      for (std::size_t p = 0; p < made.count(); ++p)
+        if (made.data()[p]) result.map.data()[p] = static_cast<std::uint8_t>(i);
+    }
+    return result;
+  }
+
+ private:
+  Vec3i sizeAt(int level) const {
+    Vec3i size;
+    for (int axis = 0; axis < 3; ++axis) size[axis] = std::max(1, size_[axis] >> level);
+    return size;
+  }
+  const Shape* holeAt(std::size_t level) const { return hole_.empty() ? nullptr : &hole_[level]; }
+
+  /// How much longer a layer's boundary is in the example than what the resolution of painted
+  /// layers shows of it.
+  double roughness(std::size_t n, std::size_t level) const {
+    const ShapePyramid& pyramid = wanted_[n];
+    Shape coarse = pyramid[std::min(static_cast<std::size_t>(levels_), pyramid.size() - 1)];
+    while (coarse.size().x * 3 / 2 < pyramid[level].size().x) {
+      Vec3i size;
+      for (int axis = 0; axis < 3; ++axis)
+        size[axis] = std::min(2 * coarse.size()[axis], pyramid[level].size()[axis]);
+      coarse = enlarged(coarse, size);
+    }
+    const bool wraps = options_.shape.exampleWraps;
+    const auto shareOf = [&](const Shape& shape) {
+      return static_cast<double>(boundaryCount(shape, wraps)) / static_cast<double>(shape.count());
+    };
+    const double shown = shareOf(coarse);
+    return shown > 0 ? std::max(1.0, shareOf(pyramid[level]) / shown) : 1;
+  }
+
+  /// Where a layer begins on a level; `mask` becomes where it may be.
+  Shape startOf(int i, std::size_t level, const Shape& coarser, const ShapeExample& likeness,
+                ShapeLimits& limits, Shape& mask, const Random& random) {
+    const std::size_t n = static_cast<std::size_t>(i - 2);
+    const Vec3i size = sizeAt(static_cast<int>(level));
+    const Shape& given = wanted_[n][level];
+    if (!painted_.empty()) {
+      Shape start = coarser.empty() ? painted_[n][level] : enlarged(coarser, size);
+      if (i > 2) {
+        mask = below_[level].shape;
+        limits.mask = &mask;
+        if (!touches(given, wanted_[n - 1][level], options_.shape.exampleWraps))
+          for (const Vec3i& p : boundaryOf(mask, true)) mask[p] = 0;
+        for (std::size_t p = 0; p < start.count(); ++p) start.data()[p] &= mask.data()[p];
+      }
+      limits.target = insideOf(painted_[n][level]);
+      limits.boundary =
+          static_cast<double>(boundaryCount(painted_[n][level], true)) * roughness(n, level);
+      return start;
+    }
+    if (i == 2) {
+      Shape start =
+          coarser.empty() ? randomShape(size, likeness.area, random) : enlarged(coarser, size);
+      restore(start, limits.open, given);
+      return start;
+    }
+    const std::int64_t target =
+        limits.open ? wantedCells(given, likeness.area, limits)
+                    : cellsOf(likeness.area, static_cast<std::size_t>(volume(size)));
+    Room room =
+        roomAbove(below_[level], belowExample_[level], given, coarser.empty() ? nullptr : &coarser,
+                  target, limits.open, options_.shape, random);
+    mask = std::move(room.mask);
+    limits.mask = &mask;
+    restore(room.start, limits.open, given);
+    return std::move(room.start);
+  }
+
+  Shape layer(int i, const Progress& progress, std::vector<double>& areaErrors) {
+    const std::size_t n = static_cast<std::size_t>(i - 2);
+    const Random draws = random_.fork(static_cast<std::uint64_t>(100 + i));
+    const bool joint = options_.shape.joint && i > 2;
+    Shape coarser;
+    std::int64_t target = 0;
+    for (int l = levels_ - 1; l >= 0; --l) {
+      const auto level = static_cast<std::size_t>(l);
+      const Random own = draws.fork(level);
+      ShapeExample likeness =
+          shapeExample(wanted_[n][level], joint ? &wanted_[n - 1][level] : nullptr, holeAt(level),
+                       options_.shape, own.fork(1));
+      ShapeLimits limits{.open = holeAt(level)};
+      if (joint) limits.below = &below_[level].shape;
+      Shape mask;
+      Shape start = startOf(i, level, coarser, likeness, limits, mask, own.fork(2));
+      target = wantedCells(start, likeness.area, limits);
+      OptimizedShape made =
+          optimizeShape(std::move(start), likeness, limits, options_.shape, own.fork(3),
+                        progress.part(until_[level + 1], until_[level]));
+      coarser = made.shape;
+      below_[level] = std::move(made);
+      belowExample_[level] = std::move(likeness);
+    }
+    areaErrors.push_back(static_cast<double>(insideOf(coarser) - target) /
+                         static_cast<double>(coarser.count()));
+    return coarser;
+  }
+
+  Vec3i size_;
+  const LayerOptions& options_;
+  int layers_, levels_;
+  Random random_;
+  std::vector<ShapePyramid> wanted_, painted_;
+  ShapePyramid hole_;
+  std::vector<OptimizedShape> below_;
+  std::vector<ShapeExample> belowExample_;
+  std::vector<double> until_;
+};
+
+}  // namespace
+
+SynthesizedLayers synthesizeLayers(const LayerVolume& example, const Vec3i& size,
+                                   const LayerOptions& options, const Progress& progress) {
+  return Layering(example, size, options).run(progress);
+}
+
+ControlMaps controlMaps(const LayerVolume& example, bool exampleWraps, const LayerVolume& result,
+                        bool resultWraps, const Progress& progress) {
   const int layers = layerCount(example);
-  ControlMaps maps{Grid<float>(example.width(), example.height()),
-                   Grid<float>(result.width(), result.height())};
+  ControlMaps maps{Array3D<float>(example.size()), Array3D<float>(result.size())};
   for (int i = 1; i <= layers; ++i) {
     progress.report("smoothing layers", static_cast<double>(i - 1) / layers);
     float most = 0;  // of the example's only distance, in the bottom and top layers
     for (const bool ofExample : {true, false}) {
-      const LayerMap& map = ofExample ? example : result;
-      Grid<float>& control = ofExample ? maps.example : maps.result;
-      const bool wraps = !ofExample || exampleWraps;
-      Shape lower(map.width(), map.height()), higher = layerShape(map, i + 1);
-      for (std::size_t p = 0; p < map.count(); ++p) lower[p] = map[p] < i;
-      const Grid<float> down = distanceTo(lower, wraps), up = distanceTo(higher, wraps);
+      const LayerVolume& map = ofExample ? example : result;
+      float* control = (ofExample ? maps.example : maps.result).data();
+      const bool wraps = ofExample ? exampleWraps : resultWraps;
+      Shape lower(map.size());
+      for (std::size_t p = 0; p < map.count(); ++p) lower.data()[p] = map.data()[p] < i;
+      const Array3D<float> toLower = distanceTo(lower, wraps);
+      const Array3D<float> toHigher = distanceTo(layerShape(map, i + 1), wraps);
+      const float *down = toLower.data(), *up = toHigher.data();
       const bool bottom = i == 1, top = i == layers;
       if (ofExample && (bottom || top)) {
         for (std::size_t p = 0; p < map.count(); ++p) {
           const float distance = bottom ? up[p] : down[p];
-          if (map[p] == i && std::isfinite(distance)) most = std::max(most, distance);
+          if (map.data()[p] == i && std::isfinite(distance)) most = std::max(most, distance);
         }
       }
       for (std::size_t p = 0; p < map.count(); ++p) {
-        if (map[p] != i) continue;
+        if (map.data()[p] != i) continue;
         float within = 0.5f;
         if (bottom) {
           within = 1 - (most > 0 ? std::min(1.0f, up[p] / most) : 0);
@@ -245,6 +370,37 @@ ControlMaps controlMaps(const LayerMap& example, bool exampleWraps, const LayerM
     }
   }
   return maps;
+}
+
+LayerVolume withStrips(const LayerVolume& painted, const LayerVolume& example) {
+  LayerVolume layers = painted;
+  for (int i = layerCount(example); i > 2; --i) {
+    // How far the example's contour of this layer is from that of the one below, in the middle.
+    Shape outside(example.size());
+    for (std::size_t p = 0; p < example.count(); ++p) outside.data()[p] = example.data()[p] < i - 1;
+    const Array3D<float> toOutside = distanceTo(outside, false);
+    std::vector<float> widths;
+    for (const Vec3i& p : boundaryOf(layerShape(example, i), false)) widths.push_back(toOutside[p]);
+    if (widths.empty()) continue;
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::ranges::nth_element(widths, middle);
+    const float width = std::isfinite(*middle) ? std::max(1.0f, *middle) : 1.0f;
+    // Only around contours that skip a layer.
+    Shape skipping(layers.size());
+    std::size_t at = 0;
+    forEachCell(layers.size(), [&](const Vec3i& p) {
+      const std::size_t cell = at++;
+      if (layers.data()[cell] < i) return;
+      forEachBeside(layers.size(), true, p, cell, [&](std::size_t other) {
+        if (layers.data()[other] < i - 1) skipping.data()[cell] = 1;
+      });
+    });
+    const Array3D<float> toSkipping = distanceTo(skipping, true);
+    for (std::size_t p = 0; p < layers.count(); ++p)
+      if (layers.data()[p] < i - 1 && toSkipping.data()[p] <= width)
+        layers.data()[p] = static_cast<std::uint8_t>(i - 1);
+  }
+  return layers;
 }
 
 }  // namespace exemplar

@@ -26,7 +26,7 @@ struct DecompositionOptions {
 };
 
 struct Decomposition {
-  LayerMap map;
+  LayerVolume map;
   std::vector<double> shares;  ///< of each layer, bottom up
   double skipping = 0;         ///< `skippingShare`
 };
@@ -43,26 +43,40 @@ Decomposition decomposeHeights(const Grid<float>& heights, const DecompositionOp
 struct LayerOptions {
   ShapeOptions shape;
   std::uint64_t seed = 0;
+  /// Where not 0, the example is not known and is filled anew; elsewhere the result, which then has
+  /// the example's size, is the example. Null: all of the result is made.
+  const Shape* hole = nullptr;
+  /// Layers painted by hand, of the result's size, from which it begins, in place of chance; their
+  /// areas are kept. Null: none.
+  const LayerVolume* paint = nullptr;
+  /// On how many resolutions painted layers are made to look like the example's, from the finest;
+  /// fewer keep more of what was painted. 1..7.
+  int paintLevels = 2;
 };
 struct SynthesizedLayers {
-  LayerMap map;  ///< of a torus: copies tile
-  /// Of each layer from the second on: its share less the example's. Not 0 only where the layer
+  LayerVolume map;  ///< of a torus: copies tile, unless it has a hole
+  /// Of each layer from the second on: its share less what it should be. Not 0 only where the layer
   /// below left too little room.
   std::vector<double> areaErrors;
 };
-/// A layer map of this size whose layers look like the example's, bottom to top, each inside the
-/// one below it and placed by that one's boundary (section 3.3). The same at any number of threads.
-/// Throws `Cancelled`.
-SynthesizedLayers synthesizeLayers(const LayerMap& example, int width, int height,
+/// Layers of this size that look like the example's, bottom to top, each inside the one below it
+/// and placed by that one's boundary (section 3.3); flat or in space, as the example is. The same
+/// at any number of threads. Throws `Cancelled`.
+SynthesizedLayers synthesizeLayers(const LayerVolume& example, const Vec3i& size,
                                    const LayerOptions& options, const Progress& progress = {});
+
+/// Painted layers with strips of those that were left out: where a layer touches one that is more
+/// than one below it, the layers between them are added around it, each as wide as it usually is in
+/// the example, at least one cell (section 4, user control).
+LayerVolume withStrips(const LayerVolume& painted, const LayerVolume& example);
 
 /// Two maps' layers as numbers that change smoothly (equation 5): within layer i, i to i + 1, by
 /// the distances to what shows a lower layer and to what shows a higher one. The bottom and top
 /// layers, which have one neighbor, go as far as the example's do.
 struct ControlMaps {
-  Grid<float> example, result;
+  Array3D<float> example, result;
 };
-ControlMaps controlMaps(const LayerMap& example, bool exampleWraps, const LayerMap& result,
-                        const Progress& progress = {});
+ControlMaps controlMaps(const LayerVolume& example, bool exampleWraps, const LayerVolume& result,
+                        bool resultWraps, const Progress& progress = {});
 
 }  // namespace exemplar

@@ -9,100 +9,165 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/cells.h"
 #include "core/parallel.h"
 
 namespace exemplar {
 namespace {
 
-/// Certainty below which a pixel stays as it is, in medians of the weights on the boundary.
+/// Certainty below which a cell stays as it is, in medians of the weights on the boundary.
 constexpr std::array<float, 10> kThresholds{0.01f, 0.03f, 0.06f, 0.10f, 0.14f,
                                             0.18f, 0.23f, 0.3f,  0.4f,  0.5f};
 
-std::int64_t insideOf(const Shape& shape) {
-  std::int64_t inside = 0;
-  for (const std::uint8_t v : shape.values()) inside += v;
-  return inside;
+bool isOpen(const ShapeLimits& limits, std::size_t p) {
+  return !limits.open || limits.open->data()[p];
+}
+bool mayBeInside(const ShapeLimits& limits, std::size_t p) {
+  return !limits.mask || limits.mask->data()[p];
 }
 
-/// Pixels of one value beside pixels of the other: the ring along which a shape grows (1) or
-/// shrinks (0).
-std::vector<std::size_t> ringOf(const Shape& shape, bool grows, const Shape* mask) {
-  constexpr Pixel kSteps[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+/// Cells of one value beside cells of the other: the ring along which a shape grows (1) or shrinks
+/// (0).
+std::vector<std::size_t> ringOf(const Shape& shape, bool grows, const ShapeLimits& limits) {
   std::vector<std::size_t> ring;
-  for (int y = 0; y < shape.height(); ++y) {
-    for (int x = 0; x < shape.width(); ++x) {
-      const std::size_t p = shape.index(x, y);
-      if ((shape[p] != 0) == grows || (grows && mask && !(*mask)[p])) continue;
-      for (const Pixel& step : kSteps) {
-        if ((shape[shape.wrapped(x + step.x, y + step.y)] != 0) == grows) {
-          ring.push_back(p);
-          break;
-        }
-      }
-    }
-  }
+  std::size_t at = 0;
+  forEachCell(shape.size(), [&](const Vec3i& p) {
+    const std::size_t cell = at++;
+    if ((shape.data()[cell] != 0) == grows || !isOpen(limits, cell)) return;
+    if (grows && !mayBeInside(limits, cell)) return;
+    bool beside = false;
+    forEachBeside(shape.size(), true, p, cell,
+                  [&](std::size_t other) { beside |= (shape.data()[other] != 0) == grows; });
+    if (beside) ring.push_back(cell);
+  });
   return ring;
 }
 
-std::vector<float> falloff(int side) {
-  std::vector<float> weights;
-  const double sigma = side / 2.0;
-  for (int dy = -side / 2; dy <= side / 2; ++dy)
-    for (int dx = -side / 2; dx <= side / 2; ++dx)
-      weights.push_back(static_cast<float>(std::exp(-(dx * dx + dy * dy) / (2 * sigma * sigma))));
-  return weights;
+/// Where there is no ring: the cell that votes want most to change; none where none may.
+std::vector<std::size_t> seedOf(const Shape& shape, bool grows, const PatchVotes& votes,
+                                const ShapeLimits& limits, const Random& random) {
+  std::vector<std::size_t> seed;
+  std::pair<float, std::uint64_t> most{-1, 0};
+  for (std::size_t p = 0; p < shape.count(); ++p) {
+    if ((shape.data()[p] != 0) == grows || !isOpen(limits, p)) continue;
+    if (grows && !mayBeInside(limits, p)) continue;
+    const std::pair wish{grows ? votes.share(p) : 1 - votes.share(p), random.bits(p)};
+    if (wish <= most) continue;
+    most = wish;
+    seed = {p};
+  }
+  return seed;
 }
 
-/// The pixels that are certain enough, as votes want them; the others as they are.
-Shape majority(const Shape& shape, const PatchVotes& votes, float threshold, const Shape* mask) {
+/// The cells that are certain enough, as votes want them; the others as they are.
+Shape majority(const Shape& shape, const PatchVotes& votes, float threshold,
+               const ShapeLimits& limits) {
   Shape changed = shape;
+  std::uint8_t* inside = changed.data();
   for (std::size_t p = 0; p < shape.count(); ++p) {
+    if (!isOpen(limits, p)) continue;
     if (votes.weight(p) >= threshold && votes.weight(p) > 0)
-      changed[p] = votes.inside[p] > votes.outside[p];
-    if (mask && !(*mask)[p]) changed[p] = 0;
+      inside[p] = votes.inside.data()[p] > votes.outside.data()[p];
+    if (!mayBeInside(limits, p)) inside[p] = 0;
   }
   return changed;
 }
 
-/// The majority of 3 x 3 pixels: a shorter boundary.
-Shape smoothed(const Shape& shape, const Shape* mask) {
-  Shape smooth(shape.width(), shape.height());
-  for (int y = 0; y < shape.height(); ++y) {
-    for (int x = 0; x < shape.width(); ++x) {
-      const std::size_t p = shape.index(x, y);
-      if (mask && !(*mask)[p]) continue;
-      int inside = 0;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) inside += shape[shape.wrapped(x + dx, y + dy)];
-      smooth[p] = inside >= 5;
-    }
-  }
+/// The sums of three neighbors along an axis, on the torus.
+Array3D<std::uint8_t> summedAlong(const Array3D<std::uint8_t>& values, int axis) {
+  const Vec3i& size = values.size();
+  Array3D<std::uint8_t> sums(size);
+  Vec3i step{};
+  step[axis] = 1;
+  std::size_t at = 0;
+  forEachCell(size, [&](const Vec3i& p) {
+    sums.data()[at] =
+        static_cast<std::uint8_t>(values.data()[at] + values[wrappedPlace(p - step, size)] +
+                                  values[wrappedPlace(p + step, size)]);
+    ++at;
+  });
+  return sums;
+}
+
+/// The majority of the 3 x 3 (in space 3 x 3 x 3) cells: a shorter boundary.
+Shape smoothed(const Shape& shape, const ShapeLimits& limits) {
+  const bool flat = shape.size().z == 1;
+  Array3D<std::uint8_t> sums = summedAlong(summedAlong(shape, 0), 1);
+  if (!flat) sums = summedAlong(sums, 2);
+  const int most = flat ? 5 : 14;
+  Shape smooth = shape;
+  for (std::size_t p = 0; p < shape.count(); ++p)
+    if (isOpen(limits, p)) smooth.data()[p] = mayBeInside(limits, p) && sums.data()[p] >= most;
   return smooth;
 }
 
-double boundaryShare(const Shape& shape) {
-  return static_cast<double>(boundaryOf(shape, true).size()) / static_cast<double>(shape.count());
+void restoreClosed(const Shape& was, const ShapeLimits& limits, Shape& shape) {
+  for (std::size_t p = 0; p < shape.count(); ++p) {
+    if (!isOpen(limits, p)) {
+      shape.data()[p] = was.data()[p];
+    } else if (!mayBeInside(limits, p)) {
+      shape.data()[p] = 0;
+    }
+  }
 }
 
-/// What votes make of a shape: with the threshold of certainty, smoothed or not, that gives the
-/// example's share of boundary most nearly.
+/// Removes what is smaller than anything in the example, unless nothing would be left.
+void removeSpecks(Shape& shape, const ShapeExample& example) {
+  Shape without = shape;
+  removeSmall(without, example.smallestInside, example.smallestOutside, true);
+  const std::int64_t left = insideOf(without);
+  if (left > 0 && left < static_cast<std::int64_t>(shape.count())) shape = std::move(without);
+}
+
+/// One way to change a shape as votes want it.
+struct Adjustment {
+  float threshold = 0;
+  int smoothings = 0;
+};
+
+std::vector<Adjustment> adjustmentsFor(const ShapeOptions& options, float median, bool flat) {
+  std::vector<Adjustment> all;
+  if (options.certainty == CertaintyKind::Area) {
+    // The paper's interval, evenly in logarithms.
+    for (int n = 0; n <= 20; ++n)
+      all.push_back({static_cast<float>(std::pow(10.0, -7 + n * 0.25)), 0});
+    return all;
+  }
+  for (std::size_t n = 0; n < kThresholds.size(); n += flat ? 1 : 3)
+    for (const int smoothings : {0, 1}) all.push_back({kThresholds[n] * median, smoothings});
+  // Where patches disagree the boundary is too long even so.
+  for (std::size_t n = 0; n < kThresholds.size(); n += flat ? 3 : 6)
+    for (const int smoothings : {2, 3}) all.push_back({kThresholds[n] * median, smoothings});
+  return all;
+}
+
+/// What votes make of a shape: of several adjustments the one that gives the example's share of
+/// boundary (or, as in the paper, of area) most nearly.
 Shape adjusted(const Shape& shape, const PatchVotes& votes, float median,
-               const ShapeExample& example, const Shape* mask, const Random& random,
-               const Progress& progress) {
-  const auto target =
-      static_cast<std::int64_t>(std::llround(example.area * static_cast<double>(shape.count())));
-  std::array<Shape, 2 * kThresholds.size()> candidates;
-  std::array<double, candidates.size()> errors{};
-  parallelFor(0, candidates.size(), 1, [&](std::size_t first, std::size_t last) {
+               const ShapeExample& example, const ShapeLimits& limits, const ShapeOptions& options,
+               const Random& random, const Progress& progress) {
+  const std::int64_t target = wantedCells(shape, example.area, limits);
+  const std::int64_t open =
+      limits.open ? insideOf(*limits.open) : static_cast<std::int64_t>(shape.count());
+  const double boundary = limits.boundary.value_or(example.boundary * static_cast<double>(open));
+  const bool byArea = options.certainty == CertaintyKind::Area;
+  const std::vector<Adjustment> all = adjustmentsFor(options, median, shape.size().z == 1);
+  std::vector<Shape> candidates(all.size());
+  std::vector<double> errors(all.size());
+  parallelFor(0, all.size(), 1, [&](std::size_t first, std::size_t last) {
     progress.check();
     for (std::size_t c = first; c < last; ++c) {
-      Shape changed = majority(shape, votes, kThresholds[c / 2] * median, mask);
-      if (c % 2 == 1) changed = smoothed(changed, mask);
-      removeSmall(changed, example.smallestInside, example.smallestOutside, true);
-      if (mask)
-        for (std::size_t p = 0; p < changed.count(); ++p) changed[p] &= (*mask)[p];
-      setArea(changed, target, votes, mask, random);
-      errors[c] = std::abs(boundaryShare(changed) - example.boundary);
+      Shape changed = majority(shape, votes, all[c].threshold, limits);
+      if (byArea) {
+        errors[c] = std::abs(static_cast<double>(insideOf(changed) - target));
+      } else {
+        for (int n = 0; n < all[c].smoothings; ++n) changed = smoothed(changed, limits);
+        removeSpecks(changed, example);
+        restoreClosed(shape, limits, changed);
+        setArea(changed, target, votes, limits, random);
+        errors[c] =
+            std::abs(static_cast<double>(boundaryCount(changed, true, limits.open)) - boundary);
+      }
       candidates[c] = std::move(changed);
     }
   });
@@ -110,25 +175,38 @@ Shape adjusted(const Shape& shape, const PatchVotes& votes, float median,
       candidates[static_cast<std::size_t>(std::ranges::min_element(errors) - errors.begin())]);
 }
 
+/// Boundary cells whose patches reach cells that may change.
+void keepNearOpen(std::vector<Vec3i>& boundary, const Shape& open, int side) {
+  const Vec3i& size = open.size();
+  const int half = side / 2, depth = patchDepth(size, side) / 2;
+  std::erase_if(boundary, [&](const Vec3i& c) {
+    for (int dz = -depth; dz <= depth; ++dz)
+      for (int dy = -half; dy <= half; ++dy)
+        for (int dx = -half; dx <= half; ++dx)
+          if (open[wrappedPlace(c + Vec3i{dx, dy, dz}, size)]) return false;
+    return true;
+  });
+}
+
 }  // namespace
 
-ShapeExample shapeExample(const Shape& shape, const ShapeOptions& options, const Random& random) {
-  ShapeExample example;
-  example.shape = shape;
-  example.area = areaOf(shape);
-  std::vector<Pixel> all = boundaryOf(shape, options.exampleWraps);
-  example.boundary = static_cast<double>(all.size()) / static_cast<double>(shape.count());
-  const auto smallest = [&](bool inside) {
-    const std::vector<std::uint32_t> sizes = componentSizes(shape, inside, options.exampleWraps);
-    return sizes.empty() ? 0 : *std::ranges::min_element(sizes);
-  };
-  example.smallestInside = smallest(true);
-  example.smallestOutside = smallest(false);
+std::vector<Vec3i> servingCenters(std::vector<Vec3i> all, const Vec3i& size, const Shape* unknown,
+                                  const ShapeOptions& options, const Random& random) {
+  const int half = options.patch / 2, depth = patchDepth(size, options.patch) / 2;
+  const Vec3i reach{half, half, depth};
+  const Shape extent(size);
+  if (unknown) {
+    std::erase_if(all, [&](const Vec3i& p) {
+      const CellBox box = CellBox{p - reach, p + reach + Vec3i{1, 1, 1}} & CellBox::of(size);
+      bool touches = false;
+      forEachCell(box, [&](const Vec3i& q) { touches |= (*unknown)[q] != 0; });
+      return touches;
+    });
+  }
   if (!options.exampleWraps) {
-    const int half = options.patch / 2;
-    std::vector<Pixel> whole = all;
-    std::erase_if(whole, [&](const Pixel& p) {
-      return !shape.contains(p.x - half, p.y - half) || !shape.contains(p.x + half, p.y + half);
+    std::vector<Vec3i> whole = all;
+    std::erase_if(whole, [&](const Vec3i& p) {
+      return !extent.contains(p - reach) || !extent.contains(p + reach);
     });
     if (4 * whole.size() >= all.size()) all = std::move(whole);
   }
@@ -137,49 +215,81 @@ ShapeExample shapeExample(const Shape& shape, const ShapeOptions& options, const
       std::swap(all[n], all[n + random.below(static_cast<std::uint32_t>(all.size() - n), n)]);
     all.resize(kMostExamplePatches);
   }
-  example.patches = BoundaryPatches(shape, all, options.patch, options.turns, options.exampleWraps);
+  return all;
+}
+
+ShapeExample shapeExample(const Shape& shape, const Shape* below, const Shape* unknown,
+                          const ShapeOptions& options, const Random& random) {
+  ShapeExample example;
+  example.shape = shape;
+  Shape known(shape.size(), 1);
+  if (unknown)
+    for (std::size_t p = 0; p < known.count(); ++p) known.data()[p] = !unknown->data()[p];
+  const auto cells = static_cast<double>(std::max<std::int64_t>(1, insideOf(known)));
+  example.area = static_cast<double>(insideOf(shape, &known)) / cells;
+  example.boundary =
+      static_cast<double>(boundaryCount(shape, options.exampleWraps, &known)) / cells;
+  const auto smallest = [&](bool inside) {
+    const std::vector<std::uint32_t> sizes = componentSizes(shape, inside, options.exampleWraps);
+    return sizes.empty() ? 0 : *std::ranges::min_element(sizes);
+  };
+  example.smallestInside = smallest(true);
+  example.smallestOutside = smallest(false);
+  const std::vector<Vec3i> centers = servingCenters(boundaryOf(shape, options.exampleWraps),
+                                                    shape.size(), unknown, options, random);
+  ShapePlanes planes(shape);
+  if (below) planes.shapes.push_back(below);
+  example.patches =
+      BoundaryPatches(planes, centers, options.patch, options.turns, options.exampleWraps);
   return example;
 }
 
-float PatchVotes::medianWeight(std::span<const Pixel> pixels) const {
-  if (pixels.empty()) return 0;
+std::vector<Vec3i> matchedCenters(std::vector<Vec3i> boundary, const Vec3i& size) {
+  constexpr std::size_t kAllOf = 8000;
+  if (size.z == 1 || boundary.size() <= kAllOf) return boundary;
+  std::vector<Vec3i> some;
+  for (const Vec3i& p : boundary)
+    if ((p.x + 2 * p.y + 3 * p.z) % 4 == 0) some.push_back(p);
+  return some.empty() ? boundary : some;
+}
+
+float PatchVotes::medianWeight(std::span<const Vec3i> cells) const {
+  if (cells.empty()) return 0;
   std::vector<float> weights;
-  for (const Pixel& p : pixels) weights.push_back(weight(inside.index(p.x, p.y)));
+  for (const Vec3i& p : cells) weights.push_back(weight(inside.index(p)));
   const auto middle = weights.begin() + static_cast<std::ptrdiff_t>(weights.size() / 2);
   std::ranges::nth_element(weights, middle);
   return *middle;
 }
 
 PatchVotes votesOf(const Shape& shape, const BoundaryPatches& patches, const PlacedPatches& placed,
-                   int width, int height, bool exampleWraps) {
-  PatchVotes votes{Grid<float>(width, height), Grid<float>(width, height)};
-  const int half = patches.side() / 2;
-  const std::vector<float> weights = falloff(patches.side());
-  for (std::size_t s = 0; s < placed.boundary.size(); ++s) {
-    const Pixel& at = placed.boundary[s];
-    const PatchMatch2D& match = placed.matches[s];
-    const Pixel& from = patches.center(match.patch);
-    const float certainty = 1.0f / (1.0f + static_cast<float>(match.distance));
-    const int symmetry = patches.symmetry(match.turn);
-    std::size_t n = 0;
-    for (int dy = -half; dy <= half; ++dy) {
-      for (int dx = -half; dx <= half; ++dx, ++n) {
-        const Pixel step = turnedStep({dx, dy}, symmetry);
-        const int x = from.x + step.x, y = from.y + step.y;
-        if (!exampleWraps && !shape.contains(x, y)) continue;
-        Grid<float>& side = shape[shape.wrapped(x, y)] ? votes.inside : votes.outside;
-        side[side.wrapped(at.x + dx, at.y + dy)] += certainty * weights[n];
-      }
-    }
-  }
+                   const Vec3i& size, bool exampleWraps) {
+  PatchVotes votes{Array3D<float>(size), Array3D<float>(size)};
+  float* sides[] = {votes.outside.data(), votes.inside.data()};
+  const std::uint8_t* inside = shape.data();
+  forEachPasted(patches, placed, size, shape.size(), exampleWraps,
+                [&](std::size_t cell, std::size_t from, float weight) {
+                  sides[inside[from] != 0][cell] += weight;
+                });
   return votes;
 }
 
-bool setArea(Shape& shape, std::int64_t target, const PatchVotes& votes, const Shape* mask,
+std::int64_t wantedCells(const Shape& shape, double share, const ShapeLimits& limits) {
+  if (limits.target) return *limits.target;
+  std::int64_t open = 0, closedInside = 0;
+  for (std::size_t p = 0; p < shape.count(); ++p) {
+    open += isOpen(limits, p);
+    closedInside += !isOpen(limits, p) && shape.data()[p];
+  }
+  return closedInside + static_cast<std::int64_t>(std::llround(share * static_cast<double>(open)));
+}
+
+bool setArea(Shape& shape, std::int64_t target, const PatchVotes& votes, const ShapeLimits& limits,
              const Random& random) {
   for (std::int64_t missing = target - insideOf(shape); missing != 0;) {
     const bool grows = missing > 0;
-    std::vector<std::size_t> ring = ringOf(shape, grows, mask);
+    std::vector<std::size_t> ring = ringOf(shape, grows, limits);
+    if (ring.empty()) ring = seedOf(shape, grows, votes, limits, random);
     if (ring.empty()) return false;
     const auto count = static_cast<std::size_t>(std::abs(missing));
     if (ring.size() > count) {
@@ -190,20 +300,20 @@ bool setArea(Shape& shape, std::int64_t target, const PatchVotes& votes, const S
       ring.clear();
       for (std::size_t n = 0; n < count; ++n) ring.push_back(ranked[n].second);
     }
-    for (const std::size_t p : ring) shape[p] = grows;
+    for (const std::size_t p : ring) shape.data()[p] = grows;
     missing -=
         grows ? static_cast<std::int64_t>(ring.size()) : -static_cast<std::int64_t>(ring.size());
   }
   return true;
 }
 
-OptimizedShape optimizeShape(Shape start, const ShapeExample& example, const Shape* mask,
+OptimizedShape optimizeShape(Shape start, const ShapeExample& example, const ShapeLimits& limits,
                              const ShapeOptions& options, const Random& random,
                              const Progress& progress) {
   OptimizedShape result;
   result.shape = std::move(start);
   Shape& shape = result.shape;
-  const int width = shape.width(), height = shape.height();
+  const Vec3i size = shape.size();
   if (example.patches.count() == 0) return result;
   for (int n = 0; n < options.iterations; ++n) {
     const Progress part = progress.part(static_cast<double>(n) / options.iterations,
@@ -211,22 +321,27 @@ OptimizedShape optimizeShape(Shape start, const ShapeExample& example, const Sha
     part.report("matching boundaries", 0);
     const Random draws = random.fork(static_cast<std::uint64_t>(n));
     PlacedPatches placed;
-    placed.boundary = boundaryOf(shape, true);
+    placed.boundary = matchedCenters(boundaryOf(shape, true), size);
+    if (limits.open) keepNearOpen(placed.boundary, *limits.open, options.patch);
     if (placed.boundary.empty()) break;
-    const BoundaryPatches patches(shape, placed.boundary, options.patch, 1, true);
+    ShapePlanes planes(shape);
+    if (limits.below) planes.shapes.push_back(limits.below);
+    const BoundaryPatches patches(planes, placed.boundary, options.patch, 1, true);
     placed.matches = assignPatches(
         patches, example.patches, fairUses(patches.count(), example.patches.count(), draws.fork(0)),
         options.assignment, draws.fork(1), part);
     const PatchVotes votes =
-        votesOf(example.shape, example.patches, placed, width, height, options.exampleWraps);
+        votesOf(example.shape, example.patches, placed, size, options.exampleWraps);
     const float median = votes.medianWeight(placed.boundary);
-    Shape best = adjusted(shape, votes, median, example, mask, draws.fork(2), part);
+    Shape best = adjusted(shape, votes, median, example, limits, options, draws.fork(2), part);
     std::size_t changes = 0;
-    for (std::size_t p = 0; p < shape.count(); ++p) changes += best[p] != shape[p];
+    for (std::size_t p = 0; p < shape.count(); ++p) changes += best.data()[p] != shape.data()[p];
     shape = std::move(best);
     result.placed = std::move(placed);
     ++result.iterations;
-    if (static_cast<double>(changes) < options.settled * static_cast<double>(shape.count())) break;
+    const std::int64_t open =
+        limits.open ? insideOf(*limits.open) : static_cast<std::int64_t>(shape.count());
+    if (static_cast<double>(changes) < options.settled * static_cast<double>(open)) break;
   }
   progress.report("matching boundaries", 1);
   return result;

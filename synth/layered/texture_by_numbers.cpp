@@ -4,307 +4,39 @@
 #include "synth/layered/texture_by_numbers.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "core/cells.h"
 #include "core/error.h"
-#include "core/parallel.h"
-#include "core/random.h"
 #include "core/random_streams.h"
 #include "maps/halved.h"
+#include "synth/layered/scan_texture.h"
+#include "synth/layered/texture_level.h"
 
 namespace exemplar {
 namespace {
 
-constexpr int kSweeps = 4;  // of PatchMatch in a round
-constexpr float kFar = std::numeric_limits<float>::infinity();
-
-/// Pixels with several values each, those of a pixel together: what patches compare.
-struct Features {
-  int width = 0, height = 0, values = 0;
-  std::vector<float> data;
-
-  Features() = default;
-  Features(int w, int h, int n)
-      : width(w), height(h), values(n), data(static_cast<std::size_t>(w) * h * n) {}
-  const float* at(int x, int y) const {
-    return &data[(static_cast<std::size_t>(y) * width + x) * values];
-  }
-  float* at(int x, int y) { return &data[(static_cast<std::size_t>(y) * width + x) * values]; }
-};
-
-int wrappedIndex(int x, int n) {
-  x %= n;
-  return x < 0 ? x + n : x;
-}
-
-/// One resolution of the work: the example's pixels and the result's, guide first.
-class Level {
- public:
-  Level(const Features& example, Features result, const TextureOptions& options,
-        const Random& random)
-      : example_(example),
-        result_(std::move(result)),
-        options_(options),
-        random_(random),
-        half_(options.patch / 2),
-        origins_(result_.width, result_.height),
-        costs_(result_.width, result_.height, kFar),
-        uses_(example.width, example.height) {}
-
-  /// Begins with places whose guide is like the pixel's: the best of a few drawn.
-  void startAtRandom() {
-    constexpr std::uint32_t kDrawn = 24;
-    forEachPixel([&](int x, int y) {
-      const std::size_t p = origins_.index(x, y);
-      float least = kFar;
-      for (std::uint32_t d = 0; d < kDrawn; ++d) {
-        const Pixel place = anyPlace(random_.bits(p, d));
-        const float step = example_.at(place.x, place.y)[0] - result_.at(x, y)[0];
-        if (step * step >= least) continue;
-        least = step * step;
-        origins_[p] = place;
-      }
-    });
-    vote(nullptr);
-  }
-  /// Begins with the places of the coarser level.
-  void startFrom(const PixelOrigins& coarser) {
-    forEachPixel([&](int x, int y) {
-      const Pixel& place =
-          coarser(std::min(x / 2, coarser.width() - 1), std::min(y / 2, coarser.height() - 1));
-      origins_(x, y) = inside({2 * place.x + x % 2, 2 * place.y + y % 2});
-    });
-    vote(nullptr);
-  }
-
-  void run(int rounds, const Progress& progress) {
-    for (int round = 0; round < rounds; ++round) {
-      progress.report("following the layers", static_cast<double>(round) / rounds);
-      countUses();
-      parallelRows([&](int x, int y) { costs_(x, y) = cost(x, y, origins_(x, y), kFar); });
-      for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        progress.check();
-        search(round * kSweeps + sweep, kSweeps - 1 - sweep);
-      }
-      vote(&costs_);
-    }
-  }
-
-  const PixelOrigins& origins() const { return origins_; }
-  const Grid<float>& costs() const { return costs_; }
-
- private:
-  template <class Body>
-  void parallelRows(const Body& body) {
-    parallelFor(0, static_cast<std::size_t>(result_.height), 8,
-                [&](std::size_t first, std::size_t last) {
-                  for (auto y = static_cast<int>(first); y < static_cast<int>(last); ++y)
-                    for (int x = 0; x < result_.width; ++x) body(x, y);
-                });
-  }
-  template <class Body>
-  void forEachPixel(const Body& body) {
-    parallelRows(body);
-  }
-
-  /// A place whose patch lies in the example, nearest to this one.
-  Pixel inside(Pixel place) const {
-    if (options_.exampleWraps)
-      return {wrappedIndex(place.x, example_.width), wrappedIndex(place.y, example_.height)};
-    return {std::clamp(place.x, half_, example_.width - 1 - half_),
-            std::clamp(place.y, half_, example_.height - 1 - half_)};
-  }
-  bool isInside(const Pixel& place) const {
-    return options_.exampleWraps ||
-           (place.x >= half_ && place.y >= half_ && place.x < example_.width - half_ &&
-            place.y < example_.height - half_);
-  }
-  Pixel anyPlace(std::uint64_t bits) const {
-    const int margin = options_.exampleWraps ? 0 : half_;
-    const auto w = static_cast<std::uint32_t>(example_.width - 2 * margin);
-    const auto h = static_cast<std::uint32_t>(example_.height - 2 * margin);
-    return {margin + static_cast<int>(((bits & 0xffffffffu) * w) >> 32),
-            margin + static_cast<int>(((bits >> 32) * h) >> 32)};
-  }
-
-  /// The squared difference of the patches, and what the place's overuse costs; at least `limit`
-  /// where it is not below.
-  float cost(int x, int y, const Pixel& place, float limit) const {
-    float sum = overuse(place);
-    const int n = example_.values;
-    const bool plain = x >= half_ && y >= half_ && x < result_.width - half_ &&
-                       y < result_.height - half_ && isInsideUnwrapped(place);
-    for (int dy = -half_; dy <= half_; ++dy) {
-      if (plain) {
-        const float* a = result_.at(x - half_, y + dy);
-        const float* b = example_.at(place.x - half_, place.y + dy);
-        const int count = n * options_.patch;
-        for (int v = 0; v < count; ++v) sum += (a[v] - b[v]) * (a[v] - b[v]);
-      } else {
-        for (int dx = -half_; dx <= half_; ++dx) {
-          const float* a = resultAt(x + dx, y + dy);
-          const float* b = example_.at(wrappedIndex(place.x + dx, example_.width),
-                                       wrappedIndex(place.y + dy, example_.height));
-          for (int v = 0; v < n; ++v) sum += (a[v] - b[v]) * (a[v] - b[v]);
-        }
-      }
-      if (sum >= limit) return sum;
-    }
-    return sum;
-  }
-  bool isInsideUnwrapped(const Pixel& place) const {
-    return place.x >= half_ && place.y >= half_ && place.x < example_.width - half_ &&
-           place.y < example_.height - half_;
-  }
-  const float* resultAt(int x, int y) const {
-    if (options_.wraps)
-      return result_.at(wrappedIndex(x, result_.width), wrappedIndex(y, result_.height));
-    return result_.at(std::clamp(x, 0, result_.width - 1), std::clamp(y, 0, result_.height - 1));
-  }
-
-  /// How often places were used, in fair shares, when the round began.
-  void countUses() {
-    Grid<float> counts(example_.width, example_.height);
-    for (const Pixel& place : origins_.values()) ++counts(place.x, place.y);
-    // A patch covers all its pixels, so that what counts is the mean over it.
-    const float fair = static_cast<float>(origins_.count()) / static_cast<float>(counts.count());
-    Grid<float> rows(counts.width(), counts.height());
-    for (int y = 0; y < counts.height(); ++y) {
-      for (int x = 0; x < counts.width(); ++x) {
-        float sum = 0;
-        for (int d = -half_; d <= half_; ++d) sum += counts[counts.wrapped(x + d, y)];
-        rows(x, y) = sum;
-      }
-    }
-    for (int y = 0; y < counts.height(); ++y) {
-      for (int x = 0; x < counts.width(); ++x) {
-        float sum = 0;
-        for (int d = -half_; d <= half_; ++d) sum += rows[rows.wrapped(x, y + d)];
-        uses_(x, y) = sum / (fair * static_cast<float>(options_.patch * options_.patch));
-      }
-    }
-  }
-  float overuse(const Pixel& place) const {
-    const float excess = uses_(place.x, place.y) - 1;
-    return excess > 0 ? static_cast<float>(options_.evenness) * 0.02f * excess *
-                            static_cast<float>(options_.patch * options_.patch)
-                      : 0;
-  }
-
-  /// One sweep: neighbors' places, moved along, and a few drawn around the own one. Pixels read the
-  /// places that the sweep began with, so that their order does not matter.
-  void search(int sweep, int reach) {
-    const PixelOrigins before = origins_;
-    const int step = 1 << reach;
-    const int width = result_.width, height = result_.height;
-    parallelRows([&](int x, int y) {
-      const std::size_t p = origins_.index(x, y);
-      Pixel best = before[p];
-      float least = costs_[p];
-      const auto offer = [&](const Pixel& place) {
-        if (!isInside(place) || place == best) return;
-        const Pixel there = options_.exampleWraps ? inside(place) : place;
-        const float found = cost(x, y, there, least);
-        if (found >= least) return;
-        least = found;
-        best = there;
-      };
-      const Pixel steps[] = {{-step, 0}, {step, 0}, {0, -step}, {0, step}};
-      for (const Pixel& s : steps) {
-        int nx = x + s.x, ny = y + s.y;
-        if (options_.wraps) {
-          nx = wrappedIndex(nx, width);
-          ny = wrappedIndex(ny, height);
-        } else if (nx < 0 || ny < 0 || nx >= width || ny >= height) {
-          continue;
-        }
-        const Pixel& place = before(nx, ny);
-        offer({place.x - s.x, place.y - s.y});
-      }
-      int radius = std::max(example_.width, example_.height);
-      for (std::uint32_t draw = 0; radius >= 1; radius /= 4, ++draw) {
-        const std::uint64_t bits =
-            random_.bits(p, 1000 + static_cast<std::uint32_t>(sweep) * 16 + draw);
-        const auto span = static_cast<std::uint64_t>(2 * radius + 1);
-        const int dx = static_cast<int>(((bits & 0xffffffffu) * span) >> 32) - radius;
-        const int dy = static_cast<int>(((bits >> 32) * span) >> 32) - radius;
-        offer(inside({best.x + dx, best.y + dy}));
-      }
-      origins_[p] = best;
-      costs_[p] = least;
-    });
-  }
-
-  /// Sets each pixel's texture to the mean of what the patches over it say, those that fit well
-  /// counting more. The guide stays.
-  void vote(const Grid<float>* costs) {
-    float spread = 1;
-    if (costs) {
-      std::vector<float> sorted(costs->values().begin(), costs->values().end());
-      const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-      std::ranges::nth_element(sorted, at);
-      spread = std::max(*at, 1e-6f);
-    }
-    Grid<float> weights(result_.width, result_.height, 1.0f);
-    if (costs)
-      for (std::size_t p = 0; p < weights.count(); ++p)
-        weights[p] = std::exp(-std::min((*costs)[p] / spread, 40.0f)) + 1e-6f;
-    const int n = example_.values;
-    Features voted = result_;
-    parallelRows([&](int x, int y) {
-      float sums[64] = {}, all = 0;
-      for (int dy = -half_; dy <= half_; ++dy) {
-        for (int dx = -half_; dx <= half_; ++dx) {
-          int px = x + dx, py = y + dy;
-          if (options_.wraps) {
-            px = wrappedIndex(px, result_.width);
-            py = wrappedIndex(py, result_.height);
-          } else if (px < 0 || py < 0 || px >= result_.width || py >= result_.height) {
-            continue;
-          }
-          const Pixel& place = origins_(px, py);
-          const float* from = example_.at(wrappedIndex(place.x - dx, example_.width),
-                                          wrappedIndex(place.y - dy, example_.height));
-          const float weight = weights(px, py);
-          for (int v = 1; v < n; ++v) sums[v] += weight * from[v];
-          all += weight;
-        }
-      }
-      float* to = voted.at(x, y);
-      for (int v = 1; v < n; ++v) to[v] = sums[v] / all;
-    });
-    result_ = std::move(voted);
-  }
-
-  const Features& example_;
-  Features result_;
-  const TextureOptions& options_;
-  Random random_;
-  int half_;
-  PixelOrigins origins_;
-  Grid<float> costs_;
-  Grid<float> uses_;
-};
-
 /// Values at a resolution: the guide, then the texture's planes.
-Features featuresOf(const Grid<float>& guide, const std::vector<Grid<float>>& planes,
-                    float guideWeight, const std::vector<float>& planeWeights) {
-  Features features(guide.width(), guide.height(), 1 + static_cast<int>(planes.size()));
-  for (int y = 0; y < guide.height(); ++y) {
-    for (int x = 0; x < guide.width(); ++x) {
-      float* to = features.at(x, y);
-      to[0] = guideWeight * guide(x, y);
-      for (std::size_t v = 0; v < planes.size(); ++v) to[v + 1] = planeWeights[v] * planes[v](x, y);
-    }
+TextureFeatures featuresOf(const Planes& guides, const Planes& planes, float guideWeight,
+                           float planeWeight) {
+  const Vec3i& size = guides.front().size();
+  TextureFeatures features{
+      size, static_cast<int>(guides.size() + planes.size()), static_cast<int>(guides.size()), {}};
+  features.data.reserve(guides.front().count() * static_cast<std::size_t>(features.values));
+  for (std::size_t p = 0; p < guides.front().count(); ++p) {
+    for (const Array3D<float>& guide : guides)
+      features.data.push_back(guideWeight * guide.data()[p]);
+    for (const Array3D<float>& plane : planes)
+      features.data.push_back(planeWeight * plane.data()[p]);
   }
   return features;
 }
 
-float spreadOf(const Grid<float>& values) {
+float spreadOf(const Array3D<float>& values) {
   double sum = 0, squares = 0;
   for (const float v : values.values()) {
     sum += v;
@@ -314,99 +46,250 @@ float spreadOf(const Grid<float>& values) {
   return static_cast<float>(std::sqrt(std::max(squares / n - sum / n * (sum / n), 1e-12)));
 }
 
-/// All pictures of the example, put together by the patches' places as the last vote was.
-Map compose(const Map& example, const PixelOrigins& origins, const Grid<float>& costs,
-            const TextureOptions& options) {
-  const int width = origins.width(), height = origins.height(), half = options.patch / 2;
-  std::vector<float> sorted(costs.values().begin(), costs.values().end());
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::ranges::nth_element(sorted, at);
-  // Sharper than while searching: the best patches alone, nearly.
-  const float spread = std::max(*at, 1e-6f) / 4;
-  Map map;
-  for (const MapLayer& layer : example.layers) {
-    MapLayer made{layer.name, {}, layer.bits};
-    for (const Grid<float>& plane : layer.planes) {
-      Grid<float> values(width, height);
-      parallelFor(0, static_cast<std::size_t>(height), 8, [&](std::size_t y0, std::size_t y1) {
-        for (auto y = static_cast<int>(y0); y < static_cast<int>(y1); ++y) {
-          for (int x = 0; x < width; ++x) {
-            float sum = 0, all = 0;
-            for (int dy = -half; dy <= half; ++dy) {
-              for (int dx = -half; dx <= half; ++dx) {
-                if (!options.wraps && !origins.contains(x + dx, y + dy)) continue;
-                const std::size_t p = origins.wrapped(x + dx, y + dy);
-                const Pixel& place = origins[p];
-                const float fall = std::exp(-0.5f * static_cast<float>(dx * dx + dy * dy));
-                const float weight = fall * (std::exp(-std::min(costs[p] / spread, 40.0f)) + 1e-6f);
-                sum += weight * plane[plane.wrapped(place.x - dx, place.y - dy)];
-                all += weight;
-              }
-            }
-            values(x, y) = sum / all;
-          }
-        }
-      });
-      made.planes.push_back(std::move(values));
-    }
-    map.layers.push_back(std::move(made));
-  }
-  return map;
+Planes halvedAll(const Planes& planes) {
+  Planes half;
+  for (const Array3D<float>& plane : planes) half.push_back(halved(plane, true));
+  return half;
 }
+
+TextureTask halvedTask(const TextureTask& task) {
+  TextureTask half{
+      halvedAll(task.example), halvedAll(task.exampleGuide), halvedAll(task.guide), {}};
+  if (task.hole.empty()) return half;
+  Array3D<float> part(task.hole.size());
+  for (std::size_t p = 0; p < part.count(); ++p) part.data()[p] = task.hole.data()[p] ? 1.0f : 0.0f;
+  part = halved(part, true);
+  half.hole = Shape(part.size());
+  for (std::size_t p = 0; p < part.count(); ++p) half.hole.data()[p] = part.data()[p] > 0;
+  return half;
+}
+
+/// Whether a patch of the example lies clear of the hole.
+bool leavesPatch(const Shape& hole, int patch) {
+  const Vec3i& size = hole.size();
+  const int half = patch / 2, depth = patchDepth(size, patch) / 2;
+  const Vec3i reach{half, half, depth}, one{1, 1, 1};
+  bool leaves = false;
+  forEachCell(CellBox{reach, size - reach}, [&](const Vec3i& p) {
+    if (leaves) return;
+    bool clear = true;
+    forEachCell(CellBox{p - reach, p + reach + one}, [&](const Vec3i& q) { clear &= !hole[q]; });
+    leaves = clear;
+  });
+  return leaves;
+}
+
+int leastSide(const Vec3i& size) {
+  const int flat = std::min(size.x, size.y);
+  return size.z == 1 ? flat : std::min(flat, size.z);
+}
+
+/// For each cell the example's cell in the patch over it that counts most there, which fits best or
+/// lies nearly in the middle, among those that `accepts(cell, place)`; where none is, {-1, -1, -1}.
+template <class Accepts>
+TextureOrigins sharpest(const MatchedTexture& matched, const TextureTask& task,
+                        const TextureOptions& options, const Accepts& accepts) {
+  const Vec3i &size = matched.origins.size(), &exampleSize = task.exampleSize();
+  const int half = options.patch / 2, depth = patchDepth(size, options.patch) / 2;
+  std::vector<float> sorted(matched.costs.values().begin(), matched.costs.values().end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  const float spread = std::max(*middle, 1e-6f);
+  TextureOrigins from = matched.origins;
+  parallelForEachCell(size, [&](const Vec3i& p) {
+    const std::size_t cell = from.index(p);
+    if (!task.hole.empty() && !task.hole.data()[cell]) {
+      from.data()[cell] = p;
+      return;
+    }
+    float least = std::numeric_limits<float>::infinity();
+    Vec3i best{-1, -1, -1};
+    for (int dz = -depth; dz <= depth; ++dz) {
+      for (int dy = -half; dy <= half; ++dy) {
+        for (int dx = -half; dx <= half; ++dx) {
+          const Vec3i step{dx, dy, dz};
+          Vec3i q = p + step;
+          if (options.wraps) {
+            q = wrappedPlace(q, size);
+          } else if (!matched.origins.contains(q)) {
+            continue;
+          }
+          const float price =
+              matched.costs[q] / spread + 0.5f * static_cast<float>(dx * dx + dy * dy + dz * dz);
+          if (price >= least) continue;
+          const Vec3i place = wrappedPlace(matched.origins[q] - step, exampleSize);
+          if (!accepts(cell, place)) continue;
+          least = price;
+          best = place;
+        }
+      }
+    }
+    from.data()[cell] = best;
+  });
+  return from;
+}
+
+/// The example's cells of each layer, by their guide's value.
+class CellsByGuide {
+ public:
+  CellsByGuide(const LayerVolume& layers, const Array3D<float>& guide) : guide_(guide) {
+    cells_.resize(static_cast<std::size_t>(layerCount(layers)) + 1);
+    for (std::size_t p = 0; p < layers.count(); ++p)
+      cells_[layers.data()[p]].push_back(static_cast<std::uint32_t>(p));
+    for (std::vector<std::uint32_t>& cells : cells_)
+      std::ranges::sort(cells, {}, [&](std::uint32_t p) { return std::pair{guide.data()[p], p}; });
+  }
+  /// A cell of the layer whose guide is nearest to the value.
+  Vec3i nearest(int layer, float value) const {
+    const std::vector<std::uint32_t>& cells = cells_[static_cast<std::size_t>(layer)];
+    const auto valueOf = [&](std::uint32_t p) { return guide_.data()[p]; };
+    auto at = std::ranges::lower_bound(cells, value, {}, valueOf);
+    if (at == cells.end() ||
+        (at != cells.begin() && value - valueOf(at[-1]) < valueOf(*at) - value))
+      --at;
+    return guide_.ijk(*at);
+  }
+
+ private:
+  const Array3D<float>& guide_;
+  std::vector<std::vector<std::uint32_t>> cells_;
+};
 
 }  // namespace
 
-GuidedTexture synthesizeTexture(const Map& example, const Grid<float>& exampleGuide,
-                                const Grid<float>& guide, const TextureOptions& options,
-                                const Progress& progress) {
-  const std::vector<Grid<float>>& planes = example.layers.front().planes;
-  const int least = std::min(example.width(), example.height());
+TextureOrigins sharpestOrigins(const MatchedTexture& matched, const TextureTask& task,
+                               const TextureOptions& options) {
+  return sharpest(matched, task, options, [](std::size_t, const Vec3i&) { return true; });
+}
+
+TextureOrigins layerOrigins(const MatchedTexture& matched, const TextureTask& task,
+                            const LayerVolume& exampleLayers, const LayerVolume& layers,
+                            const TextureOptions& options) {
+  TextureOrigins from = sharpest(matched, task, options, [&](std::size_t cell, const Vec3i& place) {
+    return exampleLayers[place] == layers.data()[cell];
+  });
+  const CellsByGuide others(exampleLayers, task.exampleGuide.front());
+  for (std::size_t p = 0; p < from.count(); ++p) {
+    if (from.data()[p].x < 0)
+      from.data()[p] = others.nearest(layers.data()[p], task.guide.front().data()[p]);
+  }
+  return from;
+}
+
+MatchedTexture matchTexture(const TextureTask& task, const TextureOptions& options,
+                            const Progress& progress) {
+  const int least = leastSide(task.exampleSize());
   if (least < options.patch + 1) {
     throw InputError("the example is smaller than a patch of " + std::to_string(options.patch) +
-                     " pixels");
+                     " cells");
   }
   int levels = 1;
-  for (int side = std::min({least, guide.width(), guide.height()});
+  for (int side = std::min(least, leastSide(task.size()));
        levels < options.levels && side / 2 >= 4 * options.patch; side /= 2)
     ++levels;
   // A step from one layer to the next weighs as much as a change of the texture by its spread.
   float spread = 0;
-  for (const Grid<float>& plane : planes)
-    spread += spreadOf(plane) / static_cast<float>(planes.size());
-  const std::vector<float> planeWeights(planes.size(), 1 / std::max(spread, 1e-6f));
+  for (const Array3D<float>& plane : task.example)
+    spread += spreadOf(plane) / static_cast<float>(task.example.size());
+  const float planeWeight = 1 / std::max(spread, 1e-6f);
   const auto guideWeight = static_cast<float>(options.guide);
 
-  struct Resolution {
-    Grid<float> exampleGuide, guide;
-    std::vector<Grid<float>> planes;
-  };
-  std::vector<Resolution> pyramid{{exampleGuide, guide, planes}};
+  std::vector<TextureTask> pyramid{task};
   for (int l = 1; l < levels; ++l) {
-    const Resolution& finer = pyramid.back();
-    Resolution coarser{halved(finer.exampleGuide, true), halved(finer.guide, true), {}};
-    for (const Grid<float>& plane : finer.planes) coarser.planes.push_back(halved(plane, true));
+    TextureTask coarser = halvedTask(pyramid.back());
+    if (!coarser.hole.empty() && !leavesPatch(coarser.hole, options.patch)) break;
     pyramid.push_back(std::move(coarser));
   }
+  levels = static_cast<int>(pyramid.size());
   const Random random(options.seed, stream::kTextureStart);
-  PixelOrigins origins;
-  Grid<float> costs;
+  const double share = task.size().z > 1 ? 0.125 : 0.25;
+  MatchedTexture matched;
+  std::optional<ScannedLevel> scanned;
   for (int l = levels - 1; l >= 0; --l) {
-    const Resolution& at = pyramid[static_cast<std::size_t>(l)];
-    const Features from = featuresOf(at.exampleGuide, at.planes, guideWeight, planeWeights);
-    const std::vector<Grid<float>> nothing(planes.size(),
-                                           Grid<float>(at.guide.width(), at.guide.height()));
-    Level level(from, featuresOf(at.guide, nothing, guideWeight, planeWeights), options,
-                random.fork(static_cast<std::uint64_t>(l)));
-    if (origins.empty()) {
+    const TextureTask& at = pyramid[static_cast<std::size_t>(l)];
+    const TextureFeatures from = featuresOf(at.exampleGuide, at.example, guideWeight, planeWeight);
+    // In a hole it begins with what is around it; else with nothing.
+    Planes begin = at.example;
+    if (at.hole.empty())
+      for (Array3D<float>& plane : begin) plane = Array3D<float>(at.size());
+    TextureFeatures to = featuresOf(at.guide, begin, guideWeight, planeWeight);
+    const Shape* hole = at.hole.empty() ? nullptr : &at.hole;
+    const Random own = random.fork(static_cast<std::uint64_t>(l));
+    const Progress part =
+        progress.part(l + 1 == levels ? 0 : std::pow(share, l + 1), std::pow(share, l));
+    if (options.method == TextureMethod::Classic) {
+      scanned = scanTexture(from, std::move(to), scanned ? &*scanned : nullptr, hole, l, options,
+                            own, part);
+      continue;
+    }
+    TextureLevel level(from, std::move(to), hole, options, own);
+    if (matched.origins.empty()) {
       level.startAtRandom();
     } else {
-      level.startFrom(origins);
+      level.startFrom(matched.origins);
     }
-    level.run(options.rounds, progress.part(std::pow(0.25, l + 1), std::pow(0.25, l)));
-    origins = level.origins();
-    costs = level.costs();
+    level.run(options.rounds, part);
+    matched = {level.origins(), level.costs()};
   }
-  return {compose(example, origins, costs, options), std::move(origins)};
+  if (scanned) {
+    matched.costs = Array3D<float>(task.size());
+    matched.origins = std::move(scanned->origins);
+  }
+  return matched;
+}
+
+Planes planesOf(const MapLayer& picture) {
+  Planes planes;
+  for (const Grid<float>& plane : picture.planes) planes.push_back(boxOf(plane));
+  return planes;
+}
+
+void fillSmoothly(Planes& planes, const Shape& hole) {
+  Array3D<float> known(hole.size());
+  for (std::size_t p = 0; p < hole.count(); ++p) known.data()[p] = hole.data()[p] ? 0.0f : 1.0f;
+  for (Array3D<float>& plane : planes) {
+    // Sums and weights at every resolution, down to one cell.
+    std::vector<Array3D<float>> sums{plane}, weights{known};
+    for (std::size_t p = 0; p < plane.count(); ++p) sums[0].data()[p] *= known.data()[p];
+    while (volume(sums.back().size()) > 1) {
+      sums.push_back(halved(sums.back(), true));
+      weights.push_back(halved(weights.back(), true));
+    }
+    for (std::size_t p = 0; p < plane.count(); ++p) {
+      if (known.data()[p] > 0) continue;
+      Vec3i at = plane.ijk(p);
+      std::size_t level = 0;
+      while (level + 1 < sums.size() && !(weights[level][at] > 0)) {
+        at = {at.x / 2, at.y / 2, at.z / 2};
+        ++level;
+      }
+      const float weight = weights[level][at];
+      plane.data()[p] = weight > 0 ? sums[level][at] / weight : 0;
+    }
+  }
+}
+
+GuidedTexture synthesizeTexture(const Map& example, Planes exampleGuide, Planes guide,
+                                const Shape& hole, const TextureOptions& options,
+                                const Progress& progress) {
+  TextureTask task{planesOf(example.layers.front()), std::move(exampleGuide), std::move(guide),
+                   hole};
+  if (!hole.empty()) fillSmoothly(task.example, hole);
+  GuidedTexture made{{}, sharpestOrigins(matchTexture(task, options, progress), task, options)};
+  const Vec3i& size = made.origins.size();
+  for (const MapLayer& layer : example.layers) {
+    MapLayer picture{layer.name, {}, layer.bits};
+    for (const Grid<float>& plane : layer.planes) {
+      Grid<float> values(size.x, size.y);
+      for (std::size_t p = 0; p < values.count(); ++p) {
+        const Vec3i& from = made.origins.data()[p];
+        values[p] = plane(from.x, from.y);
+      }
+      picture.planes.push_back(std::move(values));
+    }
+    made.map.layers.push_back(std::move(picture));
+  }
+  return made;
 }
 
 }  // namespace exemplar

@@ -99,7 +99,7 @@ TEST(Engines, AreFoundByNameAndByWhatTheExampleIs) {
   EXPECT_THAT([] { engineNamed("best"); },
               ThrowsMessage<InputError>(HasSubstr(
                   "expected geometry, quilting, voting, blocks, model, continuous, layered, "
-                  "terrain or surface")));
+                  "layered-volume, terrain or surface")));
 }
 
 TEST(Engines, EveryOneMakesWhatItIsAskedForWithOriginsOfTheExample) {

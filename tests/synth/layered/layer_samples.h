@@ -12,8 +12,8 @@
 namespace exemplar::testing {
 
 /// Discs of one radius, on a jittered grid, each with a smaller disc of the next layer inside.
-inline LayerMap discs(int width, int height, int radius, std::uint64_t seed) {
-  LayerMap map(width, height, 1);
+inline LayerVolume discs(int width, int height, int radius, std::uint64_t seed) {
+  LayerVolume map(Vec3i{width, height, 1}, 1);
   const Random random(seed);
   const int step = 3 * radius;
   std::uint64_t n = 0;
@@ -24,7 +24,7 @@ inline LayerMap discs(int width, int height, int radius, std::uint64_t seed) {
       for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
           const double d = std::hypot(x - x0, y - y0);
-          if (d <= radius) map(x, y) = d <= 0.5 * radius ? 3 : 2;
+          if (d <= radius) map(x, y, 0) = d <= 0.5 * radius ? 3 : 2;
         }
       }
     }
@@ -33,7 +33,7 @@ inline LayerMap discs(int width, int height, int radius, std::uint64_t seed) {
 }
 
 /// Sums of random waves, cut at equal areas: contours without a direction.
-inline LayerMap noiseLayers(int width, int height, int layers, std::uint64_t seed) {
+inline LayerVolume noiseLayers(int width, int height, int layers, std::uint64_t seed) {
   Grid<float> heights(width, height);
   const Random random(seed);
   for (std::uint64_t wave = 0; wave < 40; ++wave) {
@@ -48,12 +48,12 @@ inline LayerMap noiseLayers(int width, int height, int layers, std::uint64_t see
   }
   std::vector<float> sorted(heights.values().begin(), heights.values().end());
   std::sort(sorted.begin(), sorted.end());
-  LayerMap map(width, height, 1);
+  LayerVolume map(Vec3i{width, height, 1}, 1);
   for (int i = 1; i < layers; ++i)
     for (std::size_t p = 0; p < map.count(); ++p)
       if (heights[p] >=
           sorted[sorted.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(layers)])
-        map[p] = static_cast<std::uint8_t>(i + 1);
+        map.data()[p] = static_cast<std::uint8_t>(i + 1);
   return map;
 }
 

@@ -32,7 +32,7 @@ Shape randomShape(int width, int height, std::uint64_t seed) {
 TEST(BoundaryPatches, DifferByAsManyPixelsAsAreCounted) {
   const Shape a = randomShape(60, 50, 1), b = randomShape(70, 45, 2);
   constexpr int kSide = 11, kHalf = kSide / 2;
-  const std::vector<Pixel> ofA = boundaryOf(a, true), ofB = boundaryOf(b, false);
+  const std::vector<Vec3i> ofA = boundaryOf(a, true), ofB = boundaryOf(b, false);
   const BoundaryPatches set(a, ofA, kSide, 1, true), examples(b, ofB, kSide, 8, false);
   int partial = 0;
   for (std::size_t i = 0; i < ofA.size(); i += 7) {
@@ -41,11 +41,10 @@ TEST(BoundaryPatches, DifferByAsManyPixelsAsAreCounted) {
         int differing = 0, known = 0;
         for (int dy = -kHalf; dy <= kHalf; ++dy) {
           for (int dx = -kHalf; dx <= kHalf; ++dx) {
-            const Pixel step = turnedStep({dx, dy}, turn);
-            const int x = ofB[j].x + step.x, y = ofB[j].y + step.y;
-            if (!b.contains(x, y)) continue;
+            const Vec3i place = ofB[j] + turnedAboutZ({dx, dy, 0}, turn);
+            if (!b.contains(place)) continue;
             ++known;
-            differing += b(x, y) != a[a.wrapped(ofA[i].x + dx, ofA[i].y + dy)];
+            differing += b[place] != a[wrappedPlace(ofA[i] + Vec3i{dx, dy, 0}, a.size())];
           }
         }
         partial += known < kSide * kSide;
@@ -59,14 +58,14 @@ TEST(BoundaryPatches, DifferByAsManyPixelsAsAreCounted) {
 
 TEST(BoundaryPatches, TurnFourTimesToWhatTheyWere) {
   for (int turn = 0; turn < 8; ++turn) {
-    Pixel step{3, -2};
-    for (int t = 0; t < 4; ++t) step = turnedStep(step, turn);
-    EXPECT_EQ(step, (Pixel{3, -2})) << turn;
+    Vec3i step{3, -2, 5};
+    for (int t = 0; t < 4; ++t) step = turnedAboutZ(step, turn);
+    EXPECT_EQ(step, (Vec3i{3, -2, 5})) << turn;
   }
   // Eight different places.
   std::set<std::pair<int, int>> places;
   for (int turn = 0; turn < 8; ++turn) {
-    const Pixel step = turnedStep({3, -2}, turn);
+    const Vec3i step = turnedAboutZ({3, -2, 0}, turn);
     places.insert({step.x, step.y});
   }
   EXPECT_EQ(places.size(), 8u);
@@ -74,7 +73,7 @@ TEST(BoundaryPatches, TurnFourTimesToWhatTheyWere) {
 
 TEST(NearestPatches, AreThoseOfAFullSearch) {
   const Shape a = randomShape(60, 50, 1), b = randomShape(70, 45, 2);
-  const std::vector<Pixel> ofA = boundaryOf(a, true), ofB = boundaryOf(b, false);
+  const std::vector<Vec3i> ofA = boundaryOf(a, true), ofB = boundaryOf(b, false);
   const BoundaryPatches set(a, ofA, 15, 1, true), examples(b, ofB, 15, 4, false);
   const NearestPatches nearest(examples);
   std::vector<std::uint32_t> left(examples.count());
@@ -89,7 +88,7 @@ TEST(NearestPatches, AreThoseOfAFullSearch) {
         all.emplace_back(least, e);
       }
       std::ranges::sort(all);
-      std::vector<PatchMatch2D> found;
+      std::vector<BoundaryMatch> found;
       nearest.find(set, s, 8,
                    some ? std::span<const std::uint32_t>(left) : std::span<const std::uint32_t>(),
                    found);
@@ -105,14 +104,14 @@ TEST(NearestPatches, AreThoseOfAFullSearch) {
 }
 
 TEST(RemoveSmall, TurnsOverWhatIsSmallAndNothingElse) {
-  Shape shape(20, 20);
+  Shape shape(Vec3i{20, 20, 1});
   for (int y = 2; y < 8; ++y)
-    for (int x = 2; x < 8; ++x) shape(x, y) = 1;
-  shape(4, 4) = 0;    // a hole
-  shape(15, 15) = 1;  // a speck
+    for (int x = 2; x < 8; ++x) shape(x, y, 0) = 1;
+  shape(4, 4, 0) = 0;    // a hole
+  shape(15, 15, 0) = 1;  // a speck
   removeSmall(shape, 5, 5, true);
-  EXPECT_EQ(shape(4, 4), 1);
-  EXPECT_EQ(shape(15, 15), 0);
+  EXPECT_EQ(shape(4, 4, 0), 1);
+  EXPECT_EQ(shape(15, 15, 0), 0);
   EXPECT_EQ(componentSizes(shape, true, true), (std::vector<std::uint32_t>{36}));
 }
 
@@ -168,8 +167,8 @@ TEST(AssignPatches, GreedyIsNearTheOptimum) {
 TEST(AssignPatches, ExactIsTheOptimumOfSmallInstances) {
   // All permutations of seven patches.
   const Shape a = randomShape(50, 50, 1), b = randomShape(50, 50, 2);
-  const auto some = [](const std::vector<Pixel>& all) {
-    std::vector<Pixel> seven;
+  const auto some = [](const std::vector<Vec3i>& all) {
+    std::vector<Vec3i> seven;
     for (std::size_t n = 0; n < 7; ++n) seven.push_back(all[n * all.size() / 7]);
     return seven;
   };
@@ -201,35 +200,36 @@ TEST(OptimizeShape, LeavesTheExampleItselfAsItIs) {
   const Shape shape = randomShape(64, 64, 4);
   ShapeOptions options;
   options.exampleWraps = true;
-  const ShapeExample example = shapeExample(shape, options, Random(1));
-  const OptimizedShape made = optimizeShape(shape, example, nullptr, options, Random(2));
+  const ShapeExample example = shapeExample(shape, nullptr, nullptr, options, Random(1));
+  const OptimizedShape made = optimizeShape(shape, example, {}, options, Random(2));
   EXPECT_EQ(made.shape, shape);
   EXPECT_EQ(made.iterations, 1);
-  for (const PatchMatch2D& match : made.placed.matches) EXPECT_EQ(match.distance, 0);
+  for (const BoundaryMatch& match : made.placed.matches) EXPECT_EQ(match.distance, 0);
 }
 
 TEST(SetArea, AddsAndTakesExactlyAndStaysInTheMask) {
   const Shape shape = randomShape(64, 64, 4);
-  const PatchVotes votes{Grid<float>(64, 64), Grid<float>(64, 64)};
+  const Vec3i size{64, 64, 1};
+  const PatchVotes votes{Array3D<float>(size), Array3D<float>(size)};
   for (const std::int64_t target : {200, 1500, 3000, 4000}) {
     Shape changed = shape;
-    EXPECT_TRUE(setArea(changed, target, votes, nullptr, Random(1)));
+    EXPECT_TRUE(setArea(changed, target, votes, {}, Random(1)));
     EXPECT_EQ(std::ranges::count(changed.values(), 1), target);
   }
-  Shape mask(64, 64);
+  Shape mask(size);
   for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 32; ++x) mask(x, y) = 1;
+    for (int x = 0; x < 32; ++x) mask(x, y, 0) = 1;
   Shape within = shape;
-  for (std::size_t p = 0; p < within.count(); ++p) within[p] &= mask[p];
-  EXPECT_FALSE(setArea(within, 4000, votes, &mask, Random(1)));
+  for (std::size_t p = 0; p < within.count(); ++p) within.data()[p] &= mask.data()[p];
+  EXPECT_FALSE(setArea(within, 4000, votes, {.mask = &mask}, Random(1)));
   EXPECT_EQ(within, mask);
 }
 
 // --- Layers ------------------------------------------------------------------------------------
 
 TEST(SynthesizeLayers, KeepsAreasNestingAndLikeness) {
-  for (const LayerMap& example : {discs(160, 120, 9, 1), noiseLayers(160, 120, 4, 2)}) {
-    const SynthesizedLayers made = synthesizeLayers(example, 240, 200, {});
+  for (const LayerVolume& example : {discs(160, 120, 9, 1), noiseLayers(160, 120, 4, 2)}) {
+    const SynthesizedLayers made = synthesizeLayers(example, {240, 200, 1}, {});
     const int layers = layerCount(example);
     for (int i = 2; i <= layers; ++i) {
       const double wanted = areaOf(layerShape(example, i)), got = areaOf(layerShape(made.map, i));
@@ -246,21 +246,21 @@ TEST(SynthesizeLayers, KeepsAreasNestingAndLikeness) {
 }
 
 TEST(SynthesizeLayers, ComesNearerToTheExampleThanItBegan) {
-  const LayerMap example = noiseLayers(160, 120, 3, 2);
+  const LayerVolume example = noiseLayers(160, 120, 3, 2);
   LayerOptions once;
   once.shape.iterations = 1;
   once.shape.levels = 1;
   const auto distance = [&](const LayerOptions& options) {
     const LayersLikeness l =
-        measureLayers(example, false, synthesizeLayers(example, 160, 120, options).map);
+        measureLayers(example, false, synthesizeLayers(example, {160, 120, 1}, options).map);
     return *l.layers[0].toExample + *l.layers[0].toResult;
   };
   EXPECT_LT(distance({}), 0.7 * distance(once));
 }
 
 TEST(SynthesizeLayers, MakesDiscsOfDiscs) {
-  const LayerMap example = discs(200, 200, 10, 1);
-  const SynthesizedLayers made = synthesizeLayers(example, 240, 240, {});
+  const LayerVolume example = discs(200, 200, 10, 1);
+  const SynthesizedLayers made = synthesizeLayers(example, {240, 240, 1}, {});
   const double disc = 3.1416 * 10 * 10;
   int whole = 0, all = 0;
   for (const std::uint32_t size : componentSizes(layerShape(made.map, 2), true, true)) {
@@ -271,59 +271,64 @@ TEST(SynthesizeLayers, MakesDiscsOfDiscs) {
 }
 
 TEST(SynthesizeLayers, IsTheSameForASeedAtAnyNumberOfThreadsAndAnotherForAnother) {
-  const LayerMap example = noiseLayers(96, 96, 3, 2);
+  const LayerVolume example = noiseLayers(96, 96, 3, 2);
   LayerOptions options;
-  const auto made =
-      testing::onThreads(1, [&] { return synthesizeLayers(example, 128, 96, options).map; });
-  EXPECT_EQ(testing::onThreads(8, [&] { return synthesizeLayers(example, 128, 96, options).map; }),
+  const auto made = testing::onThreads(1, [&] {
+    return synthesizeLayers(example, {128, 96, 1}, options).map;
+  });
+  EXPECT_EQ(testing::onThreads(8,
+                               [&] {
+                                 return synthesizeLayers(example, {128, 96, 1}, options).map;
+                               }),
             made);
   options.seed = 1;
-  const LayerMap other = synthesizeLayers(example, 128, 96, options).map;
+  const LayerVolume other = synthesizeLayers(example, {128, 96, 1}, options).map;
   std::size_t differing = 0;
-  for (std::size_t p = 0; p < made.count(); ++p) differing += made[p] != other[p];
+  for (std::size_t p = 0; p < made.count(); ++p) differing += made.data()[p] != other.data()[p];
   EXPECT_GT(differing, made.count() / 20);
 }
 
 TEST(SynthesizeLayers, TakesTinyAndOneSidedExamples) {
-  LayerMap tiny(5, 4, 1);
-  tiny(2, 2) = tiny(3, 2) = 2;
-  EXPECT_EQ(synthesizeLayers(tiny, 9, 7, {}).map.count(), 63u);
+  LayerVolume tiny(Vec3i{5, 4, 1}, 1);
+  tiny(2, 2, 0) = tiny(3, 2, 0) = 2;
+  EXPECT_EQ(synthesizeLayers(tiny, {9, 7, 1}, {}).map.count(), 63u);
   // A layer that covers nearly everything, and one of a single pixel.
-  LayerMap extreme(40, 40, 2);
-  extreme(0, 0) = 1;
-  extreme(20, 20) = 3;
-  EXPECT_EQ(synthesizeLayers(extreme, 50, 50, {}).map.count(), 2500u);
+  LayerVolume extreme(Vec3i{40, 40, 1}, 2);
+  extreme(0, 0, 0) = 1;
+  extreme(20, 20, 0) = 3;
+  EXPECT_EQ(synthesizeLayers(extreme, {50, 50, 1}, {}).map.count(), 2500u);
 }
 
 TEST(SynthesizeLayers, ReportsAndHearsCancellation) {
-  const LayerMap example = noiseLayers(96, 96, 3, 2);
-  testing::expectReportsAndStops(
-      5, [&](const Progress& progress) { synthesizeLayers(example, 96, 96, {}, progress); });
+  const LayerVolume example = noiseLayers(96, 96, 3, 2);
+  testing::expectReportsAndStops(5, [&](const Progress& progress) {
+    synthesizeLayers(example, {96, 96, 1}, {}, progress);
+  });
 }
 
 // --- Decomposition -----------------------------------------------------------------------------
 
 /// A picture whose layers differ in color, with noise.
-MapLayer painted(const LayerMap& map, std::uint64_t seed) {
-  MapLayer layer{"color", std::vector<Grid<float>>(3, Grid<float>(map.width(), map.height())), 8};
+MapLayer painted(const LayerVolume& map, std::uint64_t seed) {
+  MapLayer layer{"color", std::vector<Grid<float>>(3, Grid<float>(map.size().x, map.size().y)), 8};
   const Random random(seed);
   for (std::size_t p = 0; p < map.count(); ++p)
     for (std::uint32_t c = 0; c < 3; ++c)
-      layer.planes[c][p] = static_cast<float>(0.15 + 0.17 * map[p] * (c == 0 ? 1 : 0.7) +
+      layer.planes[c][p] = static_cast<float>(0.15 + 0.17 * map.data()[p] * (c == 0 ? 1 : 0.7) +
                                               0.05 * random.uniform(p, c));
   return layer;
 }
 
 TEST(DecomposeTexture, FindsPaintedLayers) {
-  const LayerMap map = noiseLayers(160, 120, 4, 2);
+  const LayerVolume map = noiseLayers(160, 120, 4, 2);
   DecompositionOptions options;
   options.neighborhood = 5;
   const Decomposition found = decomposeTexture(painted(map, 1), options, 0);
   // Bottom up or top down, as the larger end says; equal here.
   std::size_t same = 0, reversed = 0;
   for (std::size_t p = 0; p < map.count(); ++p) {
-    same += found.map[p] == map[p];
-    reversed += found.map[p] == 5 - map[p];
+    same += found.map.data()[p] == map.data()[p];
+    reversed += found.map.data()[p] == 5 - map.data()[p];
   }
   EXPECT_GT(std::max(same, reversed), map.count() * 8 / 10);
   EXPECT_LT(found.skipping, 0.02);
@@ -351,15 +356,15 @@ TEST(DecomposeHeights, CutsAtEqualAreas) {
 TEST(DistanceTo, IsTheNearestPixels) {
   const Random random(3);
   for (const bool wraps : {false, true}) {
-    Shape shape(37, 23);
-    for (std::size_t p = 0; p < shape.count(); ++p) shape[p] = random.uniform(p) < 0.02;
-    const Grid<float> distance = distanceTo(shape, wraps);
+    Shape shape(Vec3i{37, 23, 1});
+    for (std::size_t p = 0; p < shape.count(); ++p) shape.data()[p] = random.uniform(p) < 0.02;
+    const Array3D<float> distance = distanceTo(shape, wraps);
     for (int y = 0; y < 23; ++y) {
       for (int x = 0; x < 37; ++x) {
         double least = 1e9;
         for (int v = 0; v < 23; ++v) {
           for (int u = 0; u < 37; ++u) {
-            if (!shape(u, v)) continue;
+            if (!shape(u, v, 0)) continue;
             double dx = std::abs(u - x), dy = std::abs(v - y);
             if (wraps) {
               dx = std::min(dx, 37 - dx);
@@ -368,21 +373,21 @@ TEST(DistanceTo, IsTheNearestPixels) {
             least = std::min(least, std::hypot(dx, dy));
           }
         }
-        EXPECT_NEAR(distance(x, y), least, 1e-4);
+        EXPECT_NEAR(distance(x, y, 0), least, 1e-4);
       }
     }
   }
-  const Grid<float> none = distanceTo(Shape(4, 4), false);
-  EXPECT_TRUE(std::isinf(none(1, 1)));
+  const Array3D<float> none = distanceTo(Shape(Vec3i{4, 4, 1}), false);
+  EXPECT_TRUE(std::isinf(none(1, 1, 0)));
 }
 
 TEST(ControlMaps, StayWithinTheirLayer) {
-  const LayerMap example = noiseLayers(80, 60, 4, 2), result = noiseLayers(90, 70, 4, 3);
-  const ControlMaps maps = controlMaps(example, false, result);
+  const LayerVolume example = noiseLayers(80, 60, 4, 2), result = noiseLayers(90, 70, 4, 3);
+  const ControlMaps maps = controlMaps(example, false, result, true);
   for (const auto& [map, control] : {std::pair{&example, &maps.example}, {&result, &maps.result}}) {
     for (std::size_t p = 0; p < map->count(); ++p) {
-      EXPECT_GE((*control)[p], (*map)[p]);
-      EXPECT_LE((*control)[p], (*map)[p] + 1);
+      EXPECT_GE(control->data()[p], map->data()[p]);
+      EXPECT_LE(control->data()[p], map->data()[p] + 1);
     }
   }
 }
@@ -390,28 +395,29 @@ TEST(ControlMaps, StayWithinTheirLayer) {
 // --- Textures ----------------------------------------------------------------------------------
 
 TEST(SynthesizeTexture, FollowsTheLayers) {
-  const LayerMap example = noiseLayers(96, 96, 3, 2), wanted = noiseLayers(112, 96, 3, 5);
+  const LayerVolume example = noiseLayers(96, 96, 3, 2), wanted = noiseLayers(112, 96, 3, 5);
   Map map;
   map.layers.push_back(painted(example, 1));
   // A second picture that says which layer a pixel shows: it must come out aligned.
   MapLayer which{"layer", {Grid<float>(96, 96)}, 8};
-  for (std::size_t p = 0; p < example.count(); ++p) which.planes[0][p] = 0.1f * example[p];
+  for (std::size_t p = 0; p < example.count(); ++p) which.planes[0][p] = 0.1f * example.data()[p];
   map.layers.push_back(which);
-  const ControlMaps control = controlMaps(example, false, wanted);
+  const ControlMaps control = controlMaps(example, false, wanted, true);
   const TextureOptions options{.guide = 3};
-  const GuidedTexture made = synthesizeTexture(map, control.example, control.result, options);
+  const GuidedTexture made =
+      synthesizeTexture(map, {control.example}, {control.result}, {}, options);
   std::size_t right = 0, all = 0, aligned = 0;
   for (int y = 0; y < 96; ++y) {
     for (int x = 0; x < 112; ++x) {
       bool far = true;
       for (int dy = -4; dy <= 4; ++dy)
         for (int dx = -4; dx <= 4; ++dx)
-          far &= wanted[wanted.wrapped(x + dx, y + dy)] == wanted(x, y);
+          far &= wanted[wrappedPlace({x + dx, y + dy, 0}, wanted.size())] == wanted(x, y, 0);
       if (!far) continue;
       ++all;
-      const Pixel& from = made.origins(x, y);
-      right += example(from.x, from.y) == wanted(x, y);
-      aligned += std::lround(10 * made.map.layers[1].planes[0](x, y)) == wanted(x, y);
+      const Vec3i& from = made.origins(x, y, 0);
+      right += example[from] == wanted(x, y, 0);
+      aligned += std::lround(10 * made.map.layers[1].planes[0](x, y)) == wanted(x, y, 0);
     }
   }
   ASSERT_GT(all, 400u);
@@ -420,11 +426,13 @@ TEST(SynthesizeTexture, FollowsTheLayers) {
 }
 
 TEST(SynthesizeTexture, IsTheSameAtAnyNumberOfThreads) {
-  const LayerMap example = noiseLayers(64, 64, 3, 2), wanted = noiseLayers(64, 64, 3, 5);
+  const LayerVolume example = noiseLayers(64, 64, 3, 2), wanted = noiseLayers(64, 64, 3, 5);
   Map map;
   map.layers.push_back(painted(example, 1));
-  const ControlMaps control = controlMaps(example, false, wanted);
-  const auto make = [&] { return synthesizeTexture(map, control.example, control.result, {}); };
+  const ControlMaps control = controlMaps(example, false, wanted, true);
+  const auto make = [&] {
+    return synthesizeTexture(map, {control.example}, {control.result}, {}, {});
+  };
   const GuidedTexture one = testing::onThreads(1, make), eight = testing::onThreads(8, make);
   EXPECT_EQ(one.map.layers[0].planes, eight.map.layers[0].planes);
 }
@@ -432,13 +440,15 @@ TEST(SynthesizeTexture, IsTheSameAtAnyNumberOfThreads) {
 TEST(SynthesizeTexture, RefusesExamplesSmallerThanAPatch) {
   Map map;
   map.layers.push_back({"color", {Grid<float>(4, 4)}, 8});
-  EXPECT_THROW(synthesizeTexture(map, Grid<float>(4, 4), Grid<float>(32, 32), {}), InputError);
+  EXPECT_THROW(synthesizeTexture(map, {Array3D<float>(Vec3i{4, 4, 1})},
+                                 {Array3D<float>(Vec3i{32, 32, 1})}, {}, {}),
+               InputError);
 }
 
 // --- Figures -----------------------------------------------------------------------------------
 
 TEST(MeasureLayers, OfTheExampleItselfIsPerfect) {
-  const LayerMap map = noiseLayers(128, 128, 3, 2);
+  const LayerVolume map = noiseLayers(128, 128, 3, 2);
   for (const LayerLikeness& layer : measureLayers(map, true, map).layers) {
     EXPECT_EQ(layer.areaError, 0);
     EXPECT_EQ(layer.boundaryRatio, 1);
@@ -449,14 +459,15 @@ TEST(MeasureLayers, OfTheExampleItselfIsPerfect) {
 }
 
 TEST(MeasureLayers, TellsNoiseStripesAndCopiesApart) {
-  const LayerMap map = noiseLayers(128, 128, 3, 2);
+  const LayerVolume map = noiseLayers(128, 128, 3, 2);
   // White noise of the same areas is like nothing; vertical stripes lack what the example has.
-  LayerMap noise(128, 128), stripes(128, 128);
+  const Vec3i size{128, 128, 1};
+  LayerVolume noise(size), stripes(size);
   const Random random(1);
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 128; ++x) {
-      noise(x, y) = static_cast<std::uint8_t>(1 + random.below(3, noise.index(x, y)));
-      stripes(x, y) = static_cast<std::uint8_t>(1 + x / 16 % 3);
+      noise(x, y, 0) = static_cast<std::uint8_t>(1 + random.below(3, noise.index(x, y, 0)));
+      stripes(x, y, 0) = static_cast<std::uint8_t>(1 + x / 16 % 3);
     }
   }
   const LayersLikeness ofNoise = measureLayers(map, true, noise);
@@ -465,9 +476,9 @@ TEST(MeasureLayers, TellsNoiseStripesAndCopiesApart) {
   const LayersLikeness ofStripes = measureLayers(map, true, stripes);
   EXPECT_GT(*ofStripes.layers[0].toResult, 2 * *ofStripes.layers[0].toExample);
   // The example twice, side by side: every window occurs twice.
-  LayerMap twice(256, 128);
+  LayerVolume twice(Vec3i{256, 128, 1});
   for (int y = 0; y < 128; ++y)
-    for (int x = 0; x < 256; ++x) twice(x, y) = map(x % 128, y);
+    for (int x = 0; x < 256; ++x) twice(x, y, 0) = map(x % 128, y, 0);
   const LayersLikeness tiled = measureLayers(map, true, twice);
   EXPECT_GT(*tiled.repeated, 0.5);
   EXPECT_LT(*tiled.exampleRepeated, 0.2);

@@ -1,0 +1,94 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/array3d.h"
+#include "maps/grid.h"
+
+/// Shapes in the plane and in space: what the layers of a picture and of a volume have in common. A
+/// flat shape is one cell thick, so that every algorithm on shapes is written once.
+namespace exemplar {
+
+/// A shape: 1 inside, 0 outside. Flat where `size().z` is 1.
+using Shape = Array3D<std::uint8_t>;
+
+/// Between a rectangle and a box that is one cell thick.
+template <class T>
+Array3D<T> boxOf(const Grid<T>& grid) {
+  Array3D<T> box(Vec3i{grid.width(), grid.height(), 1});
+  for (std::size_t p = 0; p < box.count(); ++p) box.data()[p] = grid[p];
+  return box;
+}
+template <class T>
+Grid<T> gridOf(const Array3D<T>& box) {
+  assert(box.size().z == 1);
+  Grid<T> grid(box.size().x, box.size().y);
+  for (std::size_t p = 0; p < box.count(); ++p) grid[p] = box.data()[p];
+  return grid;
+}
+
+/// Steps from the center of a patch of `side` cells a side to its cells: one layer of them in flat
+/// shapes.
+constexpr int patchDepth(const Vec3i& size, int side) { return size.z == 1 ? 1 : side; }
+constexpr int patchCells(const Vec3i& size, int side) {
+  return side * side * patchDepth(size, side);
+}
+
+/// A coordinate on a circle of `n` cells.
+constexpr int wrappedCoordinate(int x, int n) {
+  if (x >= 0 && x < n) return x;
+  x %= n;
+  return x < 0 ? x + n : x;
+}
+/// A place on the torus; any coordinates.
+constexpr Vec3i wrappedPlace(const Vec3i& p, const Vec3i& size) {
+  return {wrappedCoordinate(p.x, size.x), wrappedCoordinate(p.y, size.y),
+          wrappedCoordinate(p.z, size.z)};
+}
+
+/// Calls `body(index)` for each of the cells that share a side with the one at `p`, whose index is
+/// `at`: up to six, four in flat shapes. With `wraps` the grid is a torus.
+template <class Body>
+void forEachBeside(const Vec3i& size, bool wraps, const Vec3i& p, std::size_t at, Body&& body) {
+  const std::size_t strides[] = {1, static_cast<std::size_t>(size.x),
+                                 static_cast<std::size_t>(size.x) * size.y};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int n = size[axis];
+    if (n == 1) continue;
+    const std::size_t stride = strides[axis], around = stride * static_cast<std::size_t>(n - 1);
+    if (p[axis] > 0) {
+      body(at - stride);
+    } else if (wraps) {
+      body(at + around);
+    }
+    if (p[axis] + 1 < n) {
+      body(at + stride);
+    } else if (wraps) {
+      body(at - around);
+    }
+  }
+}
+
+/// The boundary: cells inside that have one of the cells beside them outside, row by row. With
+/// `wraps` the grid is a torus; else what lies beyond it counts as neither.
+std::vector<Vec3i> boundaryOf(const Shape& shape, bool wraps);
+/// How many cells are inside, and on the boundary; of those where `among`, if given, is not 0.
+std::int64_t insideOf(const Shape& shape, const Shape* among = nullptr);
+std::int64_t boundaryCount(const Shape& shape, bool wraps, const Shape* among = nullptr);
+
+/// The share of cells inside.
+double areaOf(const Shape& shape);
+
+/// The sizes of the components of cells of one value (1 inside, 0 outside) that are connected by
+/// sides, in cells, in the order of their first cells.
+std::vector<std::uint32_t> componentSizes(const Shape& shape, bool inside, bool wraps);
+/// Turns components of fewer cells over: `inside` is the least size of what is inside, `outside` of
+/// what is not.
+void removeSmall(Shape& shape, std::uint32_t inside, std::uint32_t outside, bool wraps);
+
+}  // namespace exemplar
