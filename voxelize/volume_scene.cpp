@@ -3,9 +3,6 @@
 
 #include "voxelize/volume_scene.h"
 
-#define TOML_EXCEPTIONS 1
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -16,6 +13,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "mesh/color.h"
+#include "mesh/toml_text.h"
 
 namespace exemplar {
 namespace {
@@ -38,14 +36,8 @@ struct VolumeScene {
 /// Reads the file's tables and says where something is wrong.
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& name) : name_(name) {
-    try {
-      root_ = toml::parse(text, name);
-    } catch (const toml::parse_error& e) {
-      throw InputError(name + ":" + std::to_string(e.source().begin.line) + ": " +
-                       std::string(e.description()));
-    }
-  }
+  Reader(std::string_view text, const std::string& name)
+      : name_(name), root_(parseToml(text, name)) {}
 
   VolumeScene read() {
     requireKeys(root_, {"kind", "size", "seed", "layer"});
@@ -196,8 +188,8 @@ void cut(Array3D<Label>& cells, Label layer, const VolumeLayer& how, const Rando
 
 bool isVolumeScene(std::string_view text) {
   try {
-    return toml::parse(text)["kind"].value<std::string>() == "volume";
-  } catch (const toml::parse_error&) {
+    return parseToml(text, {})["kind"].value<std::string>() == "volume";
+  } catch (const InputError&) {
     return false;
   }
 }
