@@ -9,8 +9,8 @@
 
 namespace exemplar {
 
-/// XXH3 of some bytes, 64 bits: tells equal content from different content, and damage, on every
-/// machine alike. No protection against somebody who wants two contents to be taken for equal.
+/// XXH3 of some bytes, 64 bits: shows whether contents differ, or are damaged, on every machine
+/// alike. No protection against somebody who wants two contents to be taken for equal.
 std::uint64_t contentHash(std::string_view bytes);
 
 /// 16 hexadecimal digits, as hashes are written in files.

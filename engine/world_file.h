@@ -13,7 +13,7 @@
 /// The file that says what a world is, `world.json`.
 namespace exemplar {
 
-/// All that decides a world's bytes, and what tells machines that make others.
+/// All that decides a world's bytes, and what shows machines that make others.
 struct WorldFile {
   static constexpr int kFormat = 1;
 

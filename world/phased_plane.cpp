@@ -111,7 +111,7 @@ void PhasedPlane::makeMissing(const PlaneBox& box, const Progress& progress) con
     seen = std::move(before);
   }
   std::atomic<std::size_t> made{0};
-  // Only one thread reports: what several do together is told by the counter.
+  // Only this thread reports, between phases.
   for (int phase = 1; phase <= WindowLattice::phases; ++phase) {
     if (all > 0)
       progress.report("making windows", static_cast<double>(made) / static_cast<double>(all));
