@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 TEST(ReadDrawing, ReadsPolygonsRectanglesAndPaths) {
   Warnings warnings;
-  const Drawing drawing = readDrawing(R"(<?xml version="1.0"?>
+  const Drawing drawing = readDrawing(R"svg(<?xml version="1.0"?>
 <!-- <polygon points="0,0 9,9 0,9"/> is no shape -->
 <svg xmlns="http://www.w3.org/2000/svg">
   <defs><rect width="5" height="5"/></defs>
@@ -26,7 +26,7 @@ TEST(ReadDrawing, ReadsPolygonsRectanglesAndPaths) {
   <path data-material="wall" fill="red" d="M0 0h8v8H0zm2 2 l4,0 0,4-4,0 z"/>
   <rect width="3" height="3" fill="none"/>
   <text x="0" y="0">a &gt; b</text>
-</svg>)",
+</svg>)svg",
                                       "test.svg", &warnings);
   ASSERT_EQ(drawing.shapes.size(), 3u);
   using Loop = std::vector<std::array<double, 2>>;
@@ -52,7 +52,7 @@ TEST(ReadDrawing, SaysWhatCannotBeRead) {
   EXPECT_THAT(message("<g transform='scale(2)'><rect width='1' height='1'/></g>"),
               HasSubstr("flatten"));
   EXPECT_THAT(message("<rect width='1' height='1' fill='octarine'/>"), HasSubstr("octarine"));
-  EXPECT_THAT(message("<rect width='1' height='1'"), HasSubstr("does not end"));
+  EXPECT_THAT(message("<rect width='1' height='1'"), HasSubstr("no value"));
   EXPECT_THAT(message("<rect width=1 height='1'/>"), HasSubstr("quotes"));
   EXPECT_THAT(message("<rect width='1e40' height='1'/>"), HasSubstr("not a number"));
   EXPECT_THAT(test::inputError([] { readDrawing("nothing", "a.svg"); }), HasSubstr("no <svg>"));
