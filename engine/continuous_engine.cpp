@@ -117,7 +117,7 @@ std::string pinText(const Pin& pin) {
 
 /// How full a result is, seen from above (the brightness of a picture), or by cells (labels: 0 is
 /// empty).
-DensityMap readDensityMap(const Source& source, const Progress& progress) {
+DensityMap readDensityMap(const Source& source) {
   DensityMap map;
   const std::string what = "`guide` " + source.name();
   const std::string ending = lowerExtension(source.path());
@@ -138,7 +138,7 @@ DensityMap readDensityMap(const Source& source, const Progress& progress) {
   }
   if (sourceKind(source) != SourceKind::Labels)
     throw InputError(what + ": use a .png or .jpg seen from above, or cells (.vox, .txt)");
-  const LabelGrid grid = readLabelGrid(source, progress);
+  const LabelGrid grid = readLabelGrid(source);
   map.size = grid.size();
   forEachCell(CellBox::of(map.size),
               [&](const Vec3i& cell) { map.values.push_back(grid.cells[cell] == 0 ? 0.f : 0.8f); });
@@ -149,7 +149,7 @@ ContinuousOptions optionsOf(const Request& request, ContinuousSettings settings,
                             const Solids& solids, const Vec3i& size) {
   ContinuousOptions options = settings.options;
   options.size = size;
-  if (request.guide) options.map = readDensityMap(*request.guide, {});
+  if (request.guide) options.map = readDensityMap(*request.guide);
   if (options.mirror.z) throw InputError("`mirror`: only x and y can be mirrored");
   if (options.open.z && (solids.ground || solids.flat))
     throw InputError("`open-sides` z: an example with a ground, or of the plane, ends there");

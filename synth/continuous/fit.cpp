@@ -91,11 +91,7 @@ class Fitting {
         continue;
       }
       if (report) {
-        *report = {moved_,
-                   kPlans[n] * tolerance_ / longest_,
-                   parts_.parts.size(),
-                   parts_.openings,
-                   parts_.sheets,
+        *report = {moved_, parts_.parts.size(), parts_.openings, parts_.sheets,
                    static_cast<std::size_t>(std::ranges::count(patches_, true, &Patch::dropped))};
       }
       return std::move(made_);

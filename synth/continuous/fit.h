@@ -19,13 +19,11 @@ struct FitOptions {
   std::optional<double> tolerance;
   /// World height below which all is ground.
   std::optional<double> ground;
-  Warnings* warnings = nullptr;
 };
 
 /// What the fit is like.
 struct FitReport {
-  double moved = 0;    ///< the largest distance between the two surfaces, world units
-  double planned = 0;  ///< how far single faces were allowed to, lengths of the longest side
+  double moved = 0;  ///< the largest distance between the two surfaces, world units
   std::size_t parts = 0, openings = 0, sheets = 0, dropped = 0;
 };
 

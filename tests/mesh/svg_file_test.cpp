@@ -52,7 +52,7 @@ TEST(ReadDrawing, SaysWhatCannotBeRead) {
   EXPECT_THAT(message("<g transform='scale(2)'><rect width='1' height='1'/></g>"),
               HasSubstr("flatten"));
   EXPECT_THAT(message("<rect width='1' height='1' fill='octarine'/>"), HasSubstr("octarine"));
-  EXPECT_THAT(message("<rect width='1' height='1'"), HasSubstr("does not end"));
+  EXPECT_THAT(message("<rect width='1' height='1'"), HasSubstr("no value"));
   EXPECT_THAT(message("<rect width=1 height='1'/>"), HasSubstr("quotes"));
   EXPECT_THAT(message("<rect width='1e40' height='1'/>"), HasSubstr("not a number"));
   EXPECT_THAT(test::inputError([] { readDrawing("nothing", "a.svg"); }), HasSubstr("no <svg>"));
