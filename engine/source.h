@@ -17,6 +17,7 @@
 #include "sdf/vdb_file.h"
 #include "synth/continuous/solid_scene.h"
 #include "voxelize/label_grid.h"
+#include "voxelize/tiled_map.h"
 
 namespace exemplar {
 
@@ -75,7 +76,7 @@ enum class SourceKind {
   Solids,     ///< .toml: a scene of solids between planes
   Volume,     ///< .vdb of signed distances
   HeightMap,  ///< .asc .tif .exr .png .pgm .r16
-  Labels,     ///< .txt .vox, .vdb of labels
+  Labels,     ///< .txt .vox .tmx .csv, .vdb of labels
   Picture,    ///< .jpg; a .png, too, where labels are asked for
 };
 
@@ -88,7 +89,8 @@ void requireThere(const Source& source);
 
 /// The endings of examples, for help and errors.
 inline constexpr const char* kExampleEndings =
-    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .tif .exr .r16 .txt .vox .jpg or .toml";
+    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .tif .exr .r16 .txt .vox .tmx .csv .jpg or "
+    ".toml";
 
 /// Read what a source holds. Throw `InputError` naming it, and `Cancelled`.
 TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
@@ -97,6 +99,8 @@ continuous::SolidScene readSolids(const Source& source);
 DistanceField readDistances(const Source& source, const ReadVdbOptions& options = {},
                             Axes* wraps = nullptr, const Progress& progress = {});
 LabelGrid readLabelGrid(const Source& source, const Progress& progress = {});
+/// A .tmx or .csv, with what a map is written from.
+TiledMap readTiles(const Source& source, const Progress& progress = {});
 HeightMap readHeights(const Source& source, const HeightMapFileOptions& options,
                       const Progress& progress = {});
 /// The bytes of a file.
