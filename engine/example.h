@@ -30,6 +30,7 @@
 #include "voxelize/label_image.h"
 #include "voxelize/mesh_to_labels.h"
 #include "voxelize/model_pieces.h"
+#include "voxelize/tiled_map.h"
 
 /// What an example is: the beginning of the main path.
 namespace exemplar {
@@ -54,7 +55,7 @@ struct LabeledField {
 };
 /// What a grid of labels was made of, and is made into again: nothing but itself, model pieces of a
 /// mesh, pieces of a picture, or blocks of a distance field.
-using LabelContent = std::variant<std::monostate, ModelPieces, ImageLabels, LabeledField>;
+using LabelContent = std::variant<std::monostate, ModelPieces, ImageLabels, LabeledField, TiledMap>;
 
 /// Good values for what a request does not say.
 struct Hints {

@@ -100,6 +100,15 @@ void fromPicture(Example& example, const Progress& progress) {
   example.description = "from a picture";
 }
 
+void fromTiles(Example& example, const Progress& progress) {
+  TiledMap map = readTiles(example.source, progress);
+  for (const std::string& what : map.dropped)
+    example.warnings.push_back(example.name() + ": its " + what + " are left out");
+  example.data = map.grid;
+  example.content = std::move(map);
+  example.description = "map of tiles";
+}
+
 void describe(Example& example) {
   const LabelGrid& grid = example.labels();
   for (int axis = 0; axis < 3; ++axis) {
@@ -119,6 +128,9 @@ bool looksAlike(const Example& a, std::size_t label, const Example& b, std::size
   const auto* pieces = std::get_if<ImageLabels>(&a.content);
   const auto* others = std::get_if<ImageLabels>(&b.content);
   if (pieces && others) return pieces->pieces[label].pixels == others->pieces[other].pixels;
+  const auto* tiles = std::get_if<TiledMap>(&a.content);
+  const auto* otherTiles = std::get_if<TiledMap>(&b.content);
+  if (tiles && otherTiles) return tiles->stacks[label] == otherTiles->stacks[other];
   return a.labels().labels[label].color == b.labels().labels[other].color;
 }
 
@@ -142,6 +154,10 @@ void readAsLabels(Example& example, const Progress& progress) {
       fromField(example, progress);
       break;
     case SourceKind::Labels:
+      if (isTiledFile(example.source.path()) && !example.source.inMemory<LabelGrid>()) {
+        fromTiles(example, progress);
+        break;
+      }
       example.data = readLabelGrid(example.source, progress);
       example.description = "grid of labels";
       break;
@@ -219,6 +235,9 @@ void numberAlike(std::vector<Example>& examples) {
         auto* pieces = std::get_if<ImageLabels>(&first.content);
         const auto* added = std::get_if<ImageLabels>(&next.content);
         if (pieces && added) pieces->pieces.push_back(added->pieces[l]);
+        auto* tiles = std::get_if<TiledMap>(&first.content);
+        const auto* more = std::get_if<TiledMap>(&next.content);
+        if (tiles && more) tiles->addLabel(more->stacks[l]);
       }
       numbers.push_back(static_cast<Label>(same));
     }

@@ -53,9 +53,11 @@ Content measureContent(const Source& result, const Example& example, const Progr
   options.resolution.reset();
   std::vector<Example> both{example, readExample(result, options, progress.part(0, 0.3))};
   if (both[1].kind != SourceKind::Labels && both[1].kind != SourceKind::Picture)
-    throw InputError(result.name() + ": a result of labels is a .txt, .vox, .vdb or a picture");
+    throw InputError(result.name() +
+                     ": a result of labels is a .txt, .vox, .vdb, .tmx, .csv or a picture");
   // A grid of pieces or blocks is written by their numbers.
-  both[0].content = both[1].kind == SourceKind::Picture ? both[0].content : LabelContent{};
+  const bool looks = both[1].kind == SourceKind::Picture || isTiledFile(result.path());
+  both[0].content = looks ? both[0].content : LabelContent{};
   numberAlike(both);
   return measureContent(both[0].labels(), both[1].labels(), progress.part(0.3, 1));
 }

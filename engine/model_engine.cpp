@@ -31,6 +31,8 @@ Conflict conflictOf(const ModelConflict& found) {
 std::string imagesTaken(const Settings& given, const ModelSettings& settings,
                         const Example& example) {
   if (std::holds_alternative<ModelPieces>(example.content)) return {};
+  if (const auto* tiles = std::get_if<TiledMap>(&example.content); tiles && tiles->hasFlips())
+    return {};
   std::vector<std::string> keys;
   const ModelSymmetry& symmetry = settings.options.symmetry;
   const bool x = settings.mirror.x, y = settings.mirror.y, turns = symmetry.turns > 1;
@@ -69,8 +71,15 @@ std::string times(double ratio) {
   return text;
 }
 
+/// Whether labels are windows of a picture that overlap: what is one object they do not say.
+bool overlaps(const Example& example) {
+  const auto* image = std::get_if<ImageLabels>(&example.content);
+  return image && image->options.overlap;
+}
+
 /// What people should know where a result keeps every adjacency and is not the example's kind.
-void judgeContent(const Content& c, bool smaller, const ModelOptions& options, Result& result) {
+void judgeContent(const Content& c, bool smaller, bool objects, const ModelOptions& options,
+                  Result& result) {
   result.statistics.emplace_back("labels_used", c.labelsUsed);
   if (c.density) result.statistics.emplace_back("density", *c.density);
   result.statistics.emplace_back("objects_per_100_columns", c.objects);
@@ -89,7 +98,7 @@ void judgeContent(const Content& c, bool smaller, const ModelOptions& options, R
     result.warnings.push_back("the result shows " + times(100 * c.labelsUsed) +
                               " % of the example's labels" + help);
   }
-  if (c.density && c.exampleObjects > 0 && !smaller) {
+  if (c.density && c.exampleObjects > 0 && !smaller && objects) {
     const double ratio = c.objects / c.exampleObjects;
     if (ratio < 0.4 || ratio > 2.5) {
       result.warnings.push_back("the result has " + times(ratio) +
@@ -165,10 +174,19 @@ class ModelEngine final : public Engine {
                     const Progress& progress) const override {
     ModelSettings settings;
     modelSettings().apply(request.settings, settings);
-    const ModelOptions options = modelOptions(request, settings, examples.front());
+    ModelOptions options = modelOptions(request, settings, examples.front());
     const Adjacency adjacency = adjacencyOf(examples, adjacencyOptions(settings));
     const std::vector<LabelGrid> grids = modelGrids(examples);
-    ModelResult made = synthesizeModel(grids, adjacency, options, progress.part(0, 0.9));
+    const Axes directed = settings.side.empty() ? directedAxes(examples.front()) : Axes{};
+    ModelResult made =
+        synthesizeModel(grids, adjacency, options, progress.part(0, directed.any() ? 0.45 : 0.9));
+    const bool held = directed.any() && made.outcome == Outcome::Complete;
+    if (directed.any() && !held) {
+      // Nobody has asked for these ends: stripes, say, may be of no such number.
+      for (int side = 0; side < 4; ++side)
+        if (directed[side / 2]) options.sides[side].kind = SideRule::Kind::Free;
+      made = synthesizeModel(grids, adjacency, options, progress.part(0.45, 0.9));
+    }
     Result result;
     result.outcome = made.outcome;
     result.statistics = statisticsOf(made, examples.front(), options.size);
@@ -189,6 +207,9 @@ class ModelEngine final : public Engine {
       result.notes.emplace_back("sides", "free along " +
                                              readableAxes(cutAtSides(examples.front())) +
                                              ", where the example cuts objects off");
+    if (held)
+      result.notes.emplace_back("sides", "as in the example along " + readableAxes(directed) +
+                                             ", whose ends have nothing in common");
     result.notes.emplace_back("method", made.statistics.whole ? "in one pass" : "in blocks");
     result.data = std::move(made.frames.front());
     result.laterFrames.assign(std::make_move_iterator(made.frames.begin() + 1),
@@ -199,7 +220,8 @@ class ModelEngine final : public Engine {
     if (first.cells.count() <= kMostMeasured) {
       const Vec3i n = first.size(), example = grids.front().size();
       judgeContent(*measureContent(result, examples, progress.part(0.9, 1)),
-                   n.x < example.x || n.y < example.y, options, result);
+                   n.x < example.x || n.y < example.y, !overlaps(examples.front()), options,
+                   result);
     }
     return result;
   }

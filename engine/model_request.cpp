@@ -229,8 +229,13 @@ void usualSides(const Example& example, ModelOptions& model) {
     for (const int side : {2 * axis, 2 * axis + 1})
       model.sides[side] = SideRule{SideRule::Kind::Free, {}};
   }
-  if (std::holds_alternative<ImageLabels>(example.content))
+  if (std::holds_alternative<ImageLabels>(example.content) ||
+      std::holds_alternative<TiledMap>(example.content)) {
     model.sides.fill(SideRule{SideRule::Kind::Free, {}});
+    const Axes directed = directedAxes(example);
+    for (int side = 0; side < 4; ++side)
+      if (directed[side / 2]) model.sides[side].kind = SideRule::Kind::Example;
+  }
   if (const auto* labeled = std::get_if<LabeledField>(&example.content)) {
     const std::array<bool, 6> cut = cutSides(labeled->field);
     for (std::size_t side = 0; side < cut.size(); ++side)
@@ -252,6 +257,10 @@ void readSymmetry(const ModelSettings& settings, const Example& example, ModelOp
     model.symmetry.mirroredX = pieces->mirroredX;
     model.symmetry.mirroredY = pieces->mirroredY;
     model.symmetry.turned = pieces->turned;
+  } else if (const auto* tiles = std::get_if<TiledMap>(&example.content)) {
+    model.symmetry.mirroredX = tiles->mirroredX;
+    model.symmetry.mirroredY = tiles->mirroredY;
+    model.symmetry.turned = tiles->turned;
   }
   const LabelGrid& grid = example.labels();
   readImages(settings.mirroredX, "`mirrored-x`", true, grid, model.symmetry.mirroredX);
@@ -309,8 +318,9 @@ const SettingTable<ModelSettings>& modelSettings() {
       textsRow(
           "side", &O::side,
           "what may be at a side of the result: SIDE=example (the default), SIDE=free (that of "
-          "pictures, and of sides at which the example cuts objects off) or SIDE=LABEL,...; left, "
-          "right, front, back, bottom, top or all"),
+          "pictures and maps of tiles, except at ends as different as earth and sky, and of sides "
+          "at which the example cuts objects off) or SIDE=LABEL,...; left, right, front, back, "
+          "bottom, top or all"),
       {{.key = "mask",
         .type = SettingType::File,
         .meaning = "a .png seen from above: black cells are holes, left empty; or a .txt, .vox or "
@@ -525,9 +535,38 @@ Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions&
   return adjacency;
 }
 
+Axes directedAxes(const Example& example) {
+  const auto* image = std::get_if<ImageLabels>(&example.content);
+  if (!image && !std::holds_alternative<TiledMap>(example.content)) return {};
+  const LabelGrid& grid = example.labels();
+  // Windows of several pixels are known by one of them: hardly two rows have a window in common.
+  const auto shownAt = [&](int axis, int end) {
+    std::set<std::array<float, 4>> looks;
+    Vec3i p{};
+    p[axis] = end ? grid.size()[axis] - 1 : 0;
+    for (int i = 0; i < grid.size()[1 - axis]; ++i) {
+      p[1 - axis] = i;
+      const Label label = grid.cells[p];
+      looks.insert(image ? grid.labels[label].color
+                         : std::array<float, 4>{static_cast<float>(label), 0, 0, 0});
+    }
+    return looks;
+  };
+  Axes directed;
+  for (int axis = 0; axis < 2; ++axis) {
+    // Mirrored pictures have no left and right, turned ones no up and down.
+    if (image && (image->options.periodic[axis] || image->options.symmetry > axis + 1)) continue;
+    const auto first = shownAt(axis, 0), last = shownAt(axis, 1);
+    directed[axis] =
+        std::ranges::none_of(first, [&](const auto& look) { return last.contains(look); });
+  }
+  return directed;
+}
+
 Axes cutAtSides(const Example& example) {
   Axes cut;
   if (std::holds_alternative<ImageLabels>(example.content) ||
+      std::holds_alternative<TiledMap>(example.content) ||
       std::holds_alternative<LabeledField>(example.content))
     return cut;
   for (int axis = 0; axis < 2; ++axis) cut[axis] = cutsObjects(example.labels(), axis);

@@ -49,6 +49,12 @@ Adjacency adjacencyOf(std::span<const Example> examples, const AdjacencyOptions&
 /// How the settings say that the examples are read.
 AdjacencyOptions adjacencyOptions(const ModelSettings& settings);
 
+/// The axes, x and y, along which a picture, or a map of tiles, has two different ends: what it
+/// shows at one of them and what it shows at the other (colors, tiles) have nothing in common, as
+/// earth and sky have, and nothing says that they are joined, mirrored or turned. The result then
+/// begins and ends there as it does.
+Axes directedAxes(const Example& example);
+
 /// The axes, x and y, at whose sides the example's labels cut objects off: what is at a side there,
 /// beside what is most frequent at its height, occurs further inside, too. Pictures and fields have
 /// none; their sides have rules of their own.

@@ -162,7 +162,7 @@ const char* outputEndings(Form form) {
     case Form::Field:
       return ".obj .ply .stl .off .glb .gltf .vdb .asc .tif .exr .png .pgm .r16";
     case Form::Labels:
-      return ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf .gif";
+      return ".txt .vox .vdb .png .tmx .csv .obj .ply .stl .off .glb .gltf .gif";
     case Form::Map:
       return ".png";
     case Form::Polygons:
@@ -229,9 +229,11 @@ void requireOutputKind(const fs::path& path, bool hasFrames, bool instances) {
 }
 
 void requireOutputFits(const fs::path& path, Form form, const Vec3i& size) {
-  if (form == Form::Labels && endsWith(path, ".png") && size.z != 1) {
-    throw InputError(path.string() + ": a picture has one layer, and the result " +
-                     std::to_string(size.z) + "; write a .txt, .vox, .vdb or a mesh");
+  const bool tiles = isTiledFile(path);
+  if (form == Form::Labels && (endsWith(path, ".png") || tiles) && size.z != 1) {
+    throw InputError(path.string() + (tiles ? ": a map of tiles" : ": a picture") +
+                     " has one layer, and the result " + std::to_string(size.z) +
+                     "; write a .txt, .vox, .vdb or a mesh");
   }
   if (form == Form::Polygons && isDrawingFile(path) && size.z != 1) {
     throw InputError(path.string() + ": a drawing is flat, and the result " +
@@ -307,6 +309,9 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
   if (const auto* image = std::get_if<ImageLabels>(&example.content);
       image && endsWith(path, ".png")) {
     writePng(path, imageFromLabels(grid, *image, progress, options.periodic));
+  } else if (const auto* tiles = std::get_if<TiledMap>(&example.content);
+             tiles && isTiledFile(path)) {
+    writeTiledMap(path, grid, *tiles, progress);
   } else {
     writeLabels(path, grid, progress);
   }

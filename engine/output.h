@@ -27,7 +27,7 @@ const char* outputEndings(Form form);
 inline constexpr const char* kMeshEndings = ".obj .ply .stl .off .glb .gltf";
 /// The endings that grids of labels are written to.
 inline constexpr const char* kLabelOutputEndings =
-    ".txt .vox .vdb .png .obj .ply .stl .off .glb .gltf";
+    ".txt .vox .vdb .png .tmx .csv .obj .ply .stl .off .glb .gltf";
 
 /// Refuses an output whose ending is none of `endings` (".obj .ply"), or whose folder does not
 /// exist or cannot be written, before any work is done.

@@ -151,12 +151,20 @@ LabelGrid readLabelGrid(const Source& source, const Progress& progress) {
   if (!isFile(source)) return held<LabelGrid>(source, "labels");
   if (lowerExtension(source.path()) == ".toml")
     return readVolumeScene(sceneText(source), source.path().stem().string(), progress);
+  if (isTiledFile(source.path())) return readTiles(source, progress).grid;
   if (const std::string* bytes = source.inMemory<std::string>()) {
     return lowerExtension(source.path()) == ".vox"
                ? parseVox(*bytes, source.name())
                : parseLabelText(*bytes, source.name(), progress);
   }
   return readLabels(source.path(), progress);
+}
+
+TiledMap readTiles(const Source& source, const Progress& progress) {
+  const std::string* bytes = source.inMemory<std::string>();
+  if (!bytes) return readTiledMap(source.path(), progress);
+  return lowerExtension(source.path()) == ".csv" ? parseTileRows(*bytes, source.name(), progress)
+                                                 : parseTiledMap(*bytes, source.name(), progress);
 }
 
 HeightMap readHeights(const Source& source, const HeightMapFileOptions& options,

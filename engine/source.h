@@ -19,6 +19,7 @@
 #include "sdf/vdb_file.h"
 #include "synth/continuous/solid_scene.h"
 #include "voxelize/label_grid.h"
+#include "voxelize/tiled_map.h"
 
 namespace exemplar {
 
@@ -77,7 +78,7 @@ enum class SourceKind {
   Solids,     ///< .toml: a scene of solids between planes; .svg: a drawing
   Volume,     ///< .vdb of signed distances
   HeightMap,  ///< .asc .tif .exr .png .pgm .r16
-  Labels,     ///< .txt .vox, .vdb of labels
+  Labels,     ///< .txt .vox .tmx .csv, .vdb of labels
   Picture,    ///< .jpg; a .png, too, where labels are asked for
 };
 
@@ -90,7 +91,8 @@ void requireThere(const Source& source);
 
 /// The endings of examples, for help and errors.
 inline constexpr const char* kExampleEndings =
-    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .tif .exr .r16 .txt .vox .jpg .svg or .toml";
+    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .tif .exr .r16 .txt .vox .tmx .csv .jpg "
+    ".svg or .toml";
 
 /// Read what a source holds. Throw `InputError` naming it, and `Cancelled`.
 TriangleMesh readTriangles(const Source& source, const MeshFileOptions& options,
@@ -101,6 +103,8 @@ continuous::SolidScene readSolids(const Source& source, std::optional<double> un
 DistanceField readDistances(const Source& source, const ReadVdbOptions& options = {},
                             Axes* wraps = nullptr, const Progress& progress = {});
 LabelGrid readLabelGrid(const Source& source, const Progress& progress = {});
+/// A .tmx or .csv, with what a map is written from.
+TiledMap readTiles(const Source& source, const Progress& progress = {});
 HeightMap readHeights(const Source& source, const HeightMapFileOptions& options,
                       const Progress& progress = {});
 /// The bytes of a file.

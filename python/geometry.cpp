@@ -426,7 +426,7 @@ void addLabels(py::module_& module) {
           return std::make_shared<LabelGrid>(readLabels(path, progress));
         });
       },
-      py::arg("path"), "A grid of labels: .txt, .vox, .vdb or .png.");
+      py::arg("path"), "A grid of labels: .txt, .vox, .vdb, .png or .csv.");
 }
 
 void addHeights(py::module_& module) {

@@ -70,13 +70,6 @@ std::vector<LabelGrid> gridsOf(const ModelProblem& problem, const LabelGrid& exa
   return grids;
 }
 
-/// Whether a request is for a large result that is made up of windows, and nothing about it is to
-/// be proved from the labels that are left.
-bool soughtInWindows(const ModelOptions& options) {
-  return options.method == ModelMethod::Auto && !options.metropolis && canQuilt(options) &&
-         options.pins.empty() && options.counts.empty() && options.connected.empty();
-}
-
 /// How a result is annealed that windows of a smaller one have been laid in: only joints are left,
 /// the fewer moves for each column the more columns there are.
 AnnealSchedule quiltedSchedule(const ModelOptions& options) {
@@ -109,6 +102,41 @@ void matchStatistics(const ModelProblem& problem, const LabelSets& base,
                 progress.part(done, 1));
 }
 
+/// Whether patches are put in whatever labeling is found first.
+bool takesPatches(const ModelOptions& options) {
+  return options.method == ModelMethod::Auto && !options.metropolis && options.moves > 0;
+}
+
+/// Whether a request is for a large result that is made up of windows, and nothing about it is to
+/// be proved from the labels that are left.
+bool soughtInWindows(const ModelOptions& options) {
+  return takesPatches(options) && canQuilt(options) && options.pins.empty() &&
+         options.counts.empty() && options.connected.empty();
+}
+
+/// Whether all vertical sides have a rule, so that what is there ends.
+bool ends(const ModelOptions& options) {
+  return std::none_of(options.sides.begin(), options.sides.begin() + 4,
+                      [](const SideRule& s) { return s.kind == SideRule::Kind::Free; });
+}
+
+/// What patches go on from, where that is found at once. Patches bring what is to be there: ground
+/// is enough to begin with. Where things run over the sides, though, patches have nothing to end
+/// them with: there has to be something to go on from.
+std::optional<std::vector<Label>> startForPatches(
+    const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
+    std::span<const LabelGrid> examples, ModelStatistics& statistics, const Progress& progress) {
+  const ModelOptions& options = problem.options();
+  if (!takesPatches(options)) return std::nullopt;
+  if (!ends(options) && options.size.z > 1) {
+    if (auto drawn = stretchExample(problem, base, chooser, examples, progress.part(0, 0.5)))
+      return drawn;
+  }
+  if (!canQuilt(options)) return std::nullopt;
+  // All that is to be there comes with windows of a smaller result.
+  return findTiledStart(problem, base, chooser, statistics, progress.part(0.5, 1), true);
+}
+
 Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                std::span<const LabelGrid> examples, ModelStatistics& statistics,
                const Progress& progress) {
@@ -123,24 +151,11 @@ Labeling label(const ModelProblem& problem, const LabelSets& base, const LabelCh
     return labeling;
   };
   if (method == ModelMethod::Whole) return whole(std::nullopt);
-  // Patches bring what is to be there: ground is enough to begin with. Where things run over the
-  // sides, though, patches have nothing to end them with: there has to be something to go on from.
-  const auto& sides = problem.options().sides;
-  const bool ends = std::none_of(sides.begin(), sides.begin() + 4,
-                                 [](const SideRule& s) { return s.kind == SideRule::Kind::Free; });
-  const bool patches = method == ModelMethod::Auto && problem.options().moves > 0;
-  if (patches && !ends && problem.options().size.z > 1) {
-    if (auto drawn = stretchExample(problem, base, chooser, examples, progress.part(0, 0.1)))
-      return {Outcome::Complete, std::move(*drawn), 1};
-  }
-  if (method == ModelMethod::Auto && canQuilt(problem.options())) {
-    // All that is to be there comes with windows of a smaller result.
-    if (auto ground =
-            findTiledStart(problem, base, chooser, statistics, progress.part(0, 0.1), true))
-      return {Outcome::Complete, std::move(*ground), 1};
-    done = 0.1;
-  }
-  if (patches && ends) {
+  if (auto start =
+          startForPatches(problem, base, chooser, examples, statistics, progress.part(0, 0.1)))
+    return {Outcome::Complete, std::move(*start), 1};
+  if (canQuilt(problem.options())) done = 0.1;
+  if (takesPatches(problem.options()) && ends(problem.options())) {
     const Progress first = progress.part(0, 0.2);
     Labeling plain =
         labelWhole(problem, base, chooser, statistics, first, problem.options().patience, true);
@@ -183,29 +198,37 @@ ModelResult synthesizeModel(std::span<const LabelGrid> examples, const Adjacency
 
   progress.report("removing labels without support", 0.03);
   LabelSets base = problem.domains(problem.demands(), progress);
-  const bool possible =
-      (soughtInWindows(options) && makeConsistentByTile(problem, base, progress)) ||
-      makeArcConsistent(problem.network(), base, options.size.z * options.frames, progress);
+  const LabelChooser chooser(problem, examples, progress);
+  std::optional<std::vector<Label>> start;
+  double begun = 0.1;
+  if (soughtInWindows(options) && makeConsistentByTile(problem, base, progress)) {
+    start = startForPatches(problem, base, chooser, examples, result.statistics,
+                            progress.part(0.1, 0.15));
+    begun = 0.15;
+    // What these sets leave out is not proved impossible.
+    if (!start) base = problem.domains(problem.demands(), progress);
+  }
   Labeling labeling{Outcome::Impossible, {}};
-  if (possible) {
+  const double labeled = options.moves > 0 ? 0.3 : 0.85;
+  if (start) {
+    labeling = {Outcome::Complete, std::move(*start), 1};
+  } else if (makeArcConsistent(problem.network(), base, options.size.z * options.frames,
+                               progress)) {
     if (const auto why = impossibleLimit(problem, base)) {
       result.outcome = Outcome::Impossible;
       result.conflict.text = *why;
       return result;
     }
-    progress.report("counting neighbors in the example", 0.08);
-    const LabelChooser chooser(problem, examples, progress);
-    const double labeled = options.moves > 0 ? 0.3 : 0.85;
     labeling =
-        label(problem, base, chooser, examples, result.statistics, progress.part(0.1, labeled));
-    if (labeling.outcome == Outcome::Complete && options.moves > 0) {
-      matchStatistics(problem, base, chooser, examples, labeling.labels, result.statistics,
-                      progress.part(labeled, 0.85));
-    }
-    if (labeling.outcome == Outcome::Complete) {
-      labeling = meetLimits(problem, base, chooser, std::move(labeling.labels), result.statistics,
-                            progress.part(0.85, 0.95));
-    }
+        label(problem, base, chooser, examples, result.statistics, progress.part(begun, labeled));
+  }
+  if (labeling.outcome == Outcome::Complete && options.moves > 0) {
+    matchStatistics(problem, base, chooser, examples, labeling.labels, result.statistics,
+                    progress.part(labeled, 0.85));
+  }
+  if (labeling.outcome == Outcome::Complete) {
+    labeling = meetLimits(problem, base, chooser, std::move(labeling.labels), result.statistics,
+                          progress.part(0.85, 0.95));
   }
 
   result.outcome = labeling.outcome;
