@@ -85,8 +85,8 @@ class Outlets {
   OutletsCut run() {
     OutletsCut made;
     if (!(most_ > least_)) return made;
-    keepHollows(made);
-    fill();
+    if (options_.keptShare > 0) keepHollows();
+    fill(made);
     cut(made);
     return made;
   }
@@ -163,17 +163,12 @@ class Outlets {
   bool isHeld(std::size_t s) const { return (!held_.empty() && held_[s]) || bodyOf(s) != 0; }
   bool isKept(std::size_t s) const { return !kept_.empty() && kept_[s]; }
 
-  /// Counts what is flooded, and finds the hollows that stay.
-  void keepHollows(OutletsCut& made) {
+  /// Finds the hollows that stay.
+  void keepHollows() {
     std::vector<float> level(heights_.values().begin(), heights_.values().end());
     flood([&](std::uint32_t n,
               std::uint32_t from) { return level[n] = std::max(level[n], level[from]); },
           [](std::uint32_t) {});
-    std::size_t flooded = 0;
-    for (std::size_t s = 0; s < level.size(); ++s) flooded += level[s] > heights_[s];
-    const auto samples = static_cast<double>(level.size());
-    made.flooded = static_cast<double>(flooded) / samples;
-    if (options_.keptShare <= 0 || flooded == 0) return;
     std::vector<std::vector<std::uint32_t>> hollows;
     std::vector<std::uint8_t> seen(level.size());
     for (std::uint32_t s = 0; s < level.size(); ++s) {
@@ -194,7 +189,7 @@ class Outlets {
                              [](const auto& a, const auto& b) { return a.size() > b.size(); });
     kept_.assign(level.size(), 0);
     standing_.assign(level.size(), least_);
-    double left = options_.keptShare * samples;
+    double left = options_.keptShare * static_cast<double>(level.size());
     for (const std::vector<std::uint32_t>& hollow : hollows) {
       if (static_cast<double>(hollow.size()) > left) continue;
       left -= static_cast<double>(hollow.size());
@@ -207,8 +202,7 @@ class Outlets {
 
   /// Fills hollows by their share, and those that drain through one that stays up to the water in
   /// that, which would flood them.
-  void fill() {
-    if (options_.fill <= 0 && kept_.empty()) return;
+  void fill(OutletsCut& made) {
     std::vector<float> level(heights_.values().begin(), heights_.values().end());
     const auto fall = static_cast<float>(options_.fall);
     flood(
@@ -217,11 +211,15 @@ class Outlets {
           return level[n] = std::max(level[n], level[from] + fall);
         },
         [](std::uint32_t) {});
+    std::size_t flooded = 0;
     for (std::size_t s = 0; s < level.size(); ++s) {
-      if (!(level[s] > heights_[s]) || isHeld(s) || isKept(s)) continue;
+      if (!(level[s] > heights_[s])) continue;
+      ++flooded;
+      if (isHeld(s) || isKept(s)) continue;
       heights_[s] += static_cast<float>(options_.fill) * (level[s] - heights_[s]);
       if (!kept_.empty()) heights_[s] = std::max(heights_[s], std::min(standing_[s], level[s]));
     }
+    made.flooded = static_cast<double>(flooded) / static_cast<double>(level.size());
   }
 
   /// Cuts a way from every pit, by own heights: a hollow's pit is reached first over its lowest

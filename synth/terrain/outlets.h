@@ -31,7 +31,7 @@ struct OutletOptions {
 
 /// What was done for them.
 struct OutletsCut {
-  double flooded = 0;        ///< the share of samples below their spill level before
+  double flooded = 0;  ///< the share of samples below where water would run off, by `fall`, before
   std::int64_t outlets = 0;  ///< how many were cut
   double mean = 0;           ///< what was taken away, a sample
   double deepest = 0;        ///< the deepest cut

@@ -114,7 +114,8 @@ class Synthesis {
         if (l == 0 && hollows_[l].share < kNaturalHollows) break;
       }
     }
-    seaLevel_ = seaLevelOf(pyramid_.front());
+    // A guide has heights of its own.
+    if (options.control.guide.empty()) seaLevel_ = seaLevelOf(pyramid_.front());
     guideLevel_ = options.control.guideLevel < 0
                       ? levels_ - 1
                       : std::min(options.control.guideLevel, levels_ - 1);

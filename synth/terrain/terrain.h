@@ -75,7 +75,7 @@ struct SynthesizedTerrain {
 std::vector<int> turnsOf(std::span<const Grid<float>> examples);
 
 /// Makes more of height maps of one unit and cell size; samples that are NaN are holes, from which
-/// nothing is taken. About 4 microseconds of one core a sample, and 80 bytes. The same bytes at any
+/// nothing is taken. About 6 microseconds of one core a sample, and 80 bytes. The same bytes at any
 /// number of threads. Throws `InputError` where maps are too small or hold no patch without holes,
 /// and `Cancelled`.
 SynthesizedTerrain synthesizeTerrain(std::span<const Grid<float>> examples,

@@ -16,8 +16,7 @@ namespace {
 
 using testing::ridges;
 
-/// Where the fine sample `step` beside one that comes from `origin` would come from, in halves of
-/// the coarse resolution.
+/// Whether `b` is, within so many samples, what `a` goes on with after a step.
 bool goesOn(const HeightOrigin& a, const HeightOrigin& b, Pixel step, int within) {
   const HeightOrigin on = stepped(a, step);
   return on.example == b.example && on.turn == b.turn && std::abs(on.x - b.x) <= within &&
