@@ -281,7 +281,8 @@ TEST_P(PictureContent, IsThePicturesKind) {
     std::map<Color, double> found = shares(made);
     double difference = 0;
     for (const auto& [color, share] : wanted) difference += std::abs(found[color] - share) / 2;
-    EXPECT_LE(difference, 0.08) << seed;
+    // A single shore or horizon may stand two columns of 28 further on.
+    EXPECT_LE(difference, directed.any() ? 0.1 : 0.08) << seed;
     for (const auto& [color, share] : wanted) {
       if (share > 0.03) {  // lines, which are the rarest, least exactly
         EXPECT_NEAR(found[color] / share, 1, 0.45) << seed;
