@@ -89,6 +89,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "more of one example, for C++ progra
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-exemplar)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-distributed)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "more of one example, for Python
  The module exemplar: examples, requests, results and measures.")
 include(CPack)

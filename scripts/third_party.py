@@ -14,7 +14,7 @@ import sys
 # Compiled in: static libraries and headers. three.js, in the report's page, comes from npm.
 COMPILED_IN = [
     "libcadical-dev", "libcli11-dev", "libeigen3-dev", "libhwy-dev", "libmeshoptimizer-dev",
-    "libtinygltf-dev", "libtomlplusplus-dev", "nlohmann-json3-dev",
+    "libtinygltf-dev", "libtomlplusplus-dev", "libxxhash-dev", "nlohmann-json3-dev",
 ]
 
 
