@@ -219,8 +219,11 @@ TEST_F(WorldCommand, InterruptedItLeavesWholeTiles) {
   // What is there is what is made without being interrupted.
   fs::remove_all(folder_ / "w/tiles");
   ASSERT_EQ(world("make w --region 0:2,0:2 --formats txt").status, 0);
-  for (const auto& [name, bytes] : tiles(".txt"))
-    if (some.contains(name)) EXPECT_TRUE(some.at(name) == bytes) << name;
+  for (const auto& [name, bytes] : tiles(".txt")) {
+    if (some.contains(name)) {
+      EXPECT_TRUE(some.at(name) == bytes) << name;
+    }
+  }
 }
 
 }  // namespace
