@@ -114,6 +114,7 @@ def hill(i, j):
 
 if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+    folder.mkdir(parents=True, exist_ok=True)
     write(folder / "torus.obj", *grid(96, 48, torus, True))
     write(folder / "hill.obj", *grid(39, 39, hill, False))
     write(folder / "rabbit.obj", *contour(rabbit, (-1, -0.8, -0.2), (1.2, 0.8, 2), (56, 41, 56)))

@@ -303,7 +303,7 @@ class Outlets {
   float most_ = -std::numeric_limits<float>::infinity();
   std::vector<std::uint8_t> toward_;  // the direction back to the outlet
   std::vector<std::uint8_t> kept_;    // 1 in hollows that stay; may be empty
-  std::vector<float> standing_;       // how high water stands there, and where it would flood
+  std::vector<float> standing_;       // the level of standing water, and where it would flood
 };
 
 }  // namespace
