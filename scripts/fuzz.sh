@@ -24,7 +24,7 @@ fuzz() {
   local leaks=1
   [ "$reader" = vdb ] && leaks=0
   export ASAN_OPTIONS=detect_leaks=$leaks
-  if ! "$build/tests/fuzz/${reader}_fuzz" -detect_leaks="$leaks" -timeout=20 -rss_limit_mb=3000 -max_len=8192 \
+  if ! "$build/tests/fuzz/${reader}_fuzz" -detect_leaks="$leaks" -timeout=60 -rss_limit_mb=3000 -max_len=8192 \
       -max_total_time="$seconds" -artifact_prefix="$build/crash-$reader-" \
       "$found" "$kept" > "$build/$reader.log" 2>&1; then
     echo "$reader: FAILED, see $build/$reader.log"
@@ -32,7 +32,7 @@ fuzz() {
   fi
   rm -rf "$kept.new"
   mkdir -p "$kept.new"
-  "$build/tests/fuzz/${reader}_fuzz" -merge=1 -use_counters=0 -detect_leaks="$leaks" -timeout=20 -rss_limit_mb=3000 \
+  "$build/tests/fuzz/${reader}_fuzz" -merge=1 -use_counters=0 -detect_leaks="$leaks" -timeout=60 -rss_limit_mb=3000 \
     "$kept.new" "$kept" "$found" > "$build/$reader.merge.log" 2>&1
   rm -rf "$kept"
   mv "$kept.new" "$kept"
