@@ -46,6 +46,20 @@ Example discs() {
   return example;
 }
 
+/// A volume of labels: ore within stone.
+LabelGrid ore() {
+  LabelGrid grid;
+  grid.cells = Array3D<Label>({20, 18, 16}, 0);
+  grid.labels.resize(3);
+  for (int label = 0; label < 3; ++label) grid.labels[label].color = distinctColor(label);
+  for (std::size_t c = 0; c < grid.cells.count(); ++c) {
+    const Vec3d p = cast<double>(grid.cells.ijk(c));
+    const double waves = std::sin(0.8 * p.x) + std::sin(0.7 * p.y + 1) + std::sin(0.9 * p.z);
+    grid.cells.values()[c] = static_cast<Label>((waves > 0) + (waves > 1.2));
+  }
+  return grid;
+}
+
 /// Waves of two directions.
 HeightMap waves(int width, int height) {
   HeightMap map{Grid<float>(width, height), 2};
@@ -62,6 +76,7 @@ Example exampleFor(const Engine& engine) {
   if (engine.form() == Form::Heights)
     return readExample(Source::of(waves(50, 44)), {.form = Form::Heights});
   if (engine.form() == Form::Map) return discs();
+  if (engine.name() == "layered-volume") return readExample(Source::of(ore()));
   if (engine.form() == Form::Polygons)
     return readExample(Source::of(boxes()), {.form = Form::Polygons});
   return readExample(engine.form() == Form::Field ? Source::of(bumps()) : Source::of(rings()));
@@ -81,6 +96,7 @@ Request smallRequest(const Engine& engine, std::uint64_t seed = 0) {
     request.on = Source::of(makeSphere({0, 0, 0}, 12, 6));
     request.settings = {{"span", "24"}};
   }
+  if (engine.name() == "layered-volume") request.extent.size = Vec3i{24, 20, 18};
   if (engine.name() == "blocks") request.settings = {{"block", "8"}};
   if (engine.form() == Form::Map) request.settings = {{"layers", "2"}, {"neighborhood", "5"}};
   return request;
@@ -373,7 +389,7 @@ TEST(ContinuousEngine, TakesScenesOfSolidsAndClosedMeshes) {
               ThrowsMessage<InputError>(HasSubstr("takes closed meshes and scenes of solids")));
   TriangleMesh ball = makeSphere({0, 0, 0}, 1);
   EXPECT_THAT([&] { readExample(Source::of(ball), {.form = Form::Polygons}); },
-              ThrowsMessage<InputError>(HasSubstr("directions, and at most 32")));
+              ThrowsMessage<InputError>(HasSubstr("too fine to be read as solids")));
 }
 
 TEST(ContinuousEngine, PinsAndThinMaterialsAreNamedByTheExample) {
