@@ -195,7 +195,8 @@ TEST(SynthCommand, AnOptionOfAnotherEngineIsRefusedWithTheEnginesThatHaveIt) {
            {scene("chainmail") + " --seeding masked", "blocks has"},
            {scene("chainmail") + " --engine blocks --periodic x",
             "geometry, quilting, voting, model and terrain have"},
-           {scene("castle") + " --surface copy", "geometry, quilting, voting and blocks have"},
+           {scene("castle") + " --surface copy",
+            "geometry, quilting, voting, blocks and surface have"},
            {"--instances " + scene("chainmail"), "--instances: the engine geometry has no such"}}) {
     const auto run = runExemplar("synth " + arguments + " -o o.glb", folder.path());
     EXPECT_EQ(run.status, 2) << arguments;
