@@ -189,6 +189,34 @@ World::World(const fs::path& folder, bool cached, const Progress& progress)
   state_->begin(std::move(start), cached);
 }
 
+namespace {
+
+/// The folder of a world that is being made; what was written there goes again unless it is kept.
+class Draft {
+ public:
+  explicit Draft(const fs::path& folder) : folder_(folder), wasThere_(fs::exists(folder)) {
+    std::error_code error;
+    fs::create_directories(folder / "example", error);
+    if (error) throw InputError(folder.string() + ": cannot be made: " + error.message());
+  }
+  ~Draft() {
+    if (kept_) return;
+    std::error_code ignored;
+    fs::remove_all(folder_ / "example", ignored);
+    if (!wasThere_) fs::remove(folder_, ignored);
+  }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+
+  void keep() { kept_ = true; }
+
+ private:
+  fs::path folder_;
+  bool wasThere_, kept_ = false;
+};
+
+}  // namespace
+
 World::Created World::create(const fs::path& folder, const WorldRequest& request,
                              const Progress& progress) {
   const Engine& engine =
@@ -228,8 +256,7 @@ World::Created World::create(const fs::path& folder, const WorldRequest& request
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_empty(folder, error))
     throw InputError(folder.string() + ": is not empty, and holds no world; choose another folder");
-  fs::create_directories(folder / "example", error);
-  if (error) throw InputError(folder.string() + ": cannot be made: " + error.message());
+  Draft draft(folder);
   file.example =
       keepExample(request.example, file.settings, folder / "example", progress.part(0, 0.02));
   file.exampleHash = contentHash(readFile(folder / "example" / file.example));
@@ -269,6 +296,7 @@ World::Created World::create(const fs::path& folder, const WorldRequest& request
   world.tile({1, 0}, progress.part(0.9, 1));
   created.costs.warmSeconds = secondsSince(began);
   writeWorldFile(folder, world.file());
+  draft.keep();
   created.world.emplace(std::move(world));
   return created;
 }

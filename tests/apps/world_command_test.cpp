@@ -174,13 +174,17 @@ TEST_F(WorldCommand, RefusesInOneLine) {
     const auto run = world(arguments);
     EXPECT_EQ(run.status, 2) << arguments << run.err;
     EXPECT_THAT(run.err, HasSubstr(part)) << arguments;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    // One line beside those that say how far it is.
+    const std::size_t message = run.err.find("exemplar: ");
+    ASSERT_NE(message, run.err.npos) << arguments;
+    EXPECT_EQ(run.err.find('\n', message), run.err.size() - 1) << run.err;
+    EXPECT_FALSE(fs::exists(folder_ / "v")) << arguments;
   }
 }
 
 TEST_F(WorldCommand, AnExampleThatRepeatsNowhereIsRefused) {
   // Each label is followed by the next one, and the last by none.
-  writeFile(folder_ / "row.txt", "X Y Z:\n4 2 1\n\n1 2\n3 4\n5 6\n7 8\n");
+  writeFile(folder_ / "row.txt", "a\nb\nc\n4 2 1\n\n1 2\n3 4\n5 6\n7 8\n");
   const auto run = world("init row.txt -o v");
   EXPECT_EQ(run.status, 3) << run.out;
   EXPECT_THAT(run.err, HasSubstr("repeats over the plane"));
