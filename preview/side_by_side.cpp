@@ -115,6 +115,22 @@ std::vector<RenderOptions> panels(std::span<const TriangleMesh> meshes,
   return panels;
 }
 
+/// Lets a panel's free columns, left and right, pass into the background, so that a shadow that
+/// reaches beyond the panel does not end at a line.
+void fadeSides(Image8& panel, int columns) {
+  for (int y = 0; y < panel.height; ++y) {
+    for (int x = 0; x < panel.width; ++x) {
+      const int side = std::min(x, panel.width - 1 - x);
+      if (side >= columns) continue;
+      const double t = (side + 0.5) / columns, weight = t * t * (3 - 2 * t);
+      std::uint8_t* pixel = panel.at(x, y);
+      for (int c = 0; c < 3; ++c)
+        pixel[c] = static_cast<std::uint8_t>(
+            std::lround(kBackground[c] + weight * (pixel[c] - kBackground[c])));
+    }
+  }
+}
+
 }  // namespace
 
 Image8 renderSideBySide(std::span<const TriangleMesh> meshes, const RenderOptions& options,
@@ -127,6 +143,7 @@ Image8 renderSideBySide(std::span<const TriangleMesh> meshes, const RenderOption
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const auto n = static_cast<double>(m);
     images.push_back(render(meshes[m], shown[m], progress.part(n / count, (n + 1) / count)));
+    fadeSides(images.back(), static_cast<int>(kFree * options.height));
   }
   return sideBySide(images);
 }
