@@ -55,19 +55,21 @@ echo "== a bare Debian root"
 debootstrap --variant=minbase bookworm "$root" >$build/debootstrap.log
 # Where the loader, and the command, learn where a program is.
 mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
+trial=opt/trial  # what is made there, in that root
+mkdir "$root/$trial"
 echo "== the portable archive there"
 tar -C "$root/opt" -xJf "$build/$name.tar.xz"
-inside "/opt/$name/bin/exemplar" synth balls -o /tmp/portable.glb --quiet
-test -s "$root/tmp/portable.glb"
+inside "/opt/$name/bin/exemplar" synth balls -o "/$trial/portable.glb" --quiet
+test -s "$root/$trial/portable.glb"
 echo "== the packages there"
-cp $build/*.deb "$root/tmp/"
-inside sh -c 'apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends /tmp/*.deb' >$build/apt.log 2>&1
-inside exemplar synth balls -o /tmp/packaged.glb --quiet
-cmp "$root/tmp/portable.glb" "$root/tmp/packaged.glb"
+cp $build/*.deb "$root/$trial/"
+inside sh -c "apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends /$trial/*.deb" >$build/apt.log 2>&1
+inside exemplar synth balls -o "/$trial/packaged.glb" --quiet
+cmp "$root/$trial/portable.glb" "$root/$trial/packaged.glb"
 inside python3 -c 'import exemplar; print("python3-exemplar", exemplar.__version__)'
 test -s "$root/usr/share/man/man1/exemplar-synth.1.gz"
 test "$(inside exemplar --version)" = "$version"
 inside sh -c 'DEBIAN_FRONTEND=noninteractive apt-get purge -y -qq exemplar libexemplar-dev python3-exemplar' >>$build/apt.log 2>&1
-left=$(inside find / -xdev -ipath '*exemplar*' -not -path '/proc/*' -not -path '/opt/*' -not -path '/tmp/*')
+left=$(inside find / -xdev -ipath '*exemplar*' -not -path '/proc/*' -not -path '/opt/*')
 test -z "$left" || { echo "left behind: $left" >&2; exit 1; }
 echo "== installed, run and purged without a trace"

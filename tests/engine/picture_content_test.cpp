@@ -66,15 +66,16 @@ Rows maze() {
   return rows;
 }
 
+/// Closed lines on the ground: each a rectangle's left, top, width and height.
+Rows frames(int width, int height, const std::vector<std::array<int, 4>>& lines) {
+  Rows rows = filled(width, height, '.');
+  for (const auto& [x, y, wide, high] : lines) frame(rows, x, y, wide, high, 'b');
+  return rows;
+}
+
 /// Closed lines that cross each other.
 Rows knots() {
-  Rows rows = filled(26, 24, '.');
-  frame(rows, 3, 3, 9, 7, 'b');
-  frame(rows, 7, 6, 8, 9, 'b');
-  frame(rows, 15, 12, 7, 7, 'b');
-  frame(rows, 4, 15, 6, 5, 'b');
-  frame(rows, 18, 3, 5, 6, 'b');
-  return rows;
+  return frames(26, 24, {{3, 3, 9, 7}, {7, 6, 8, 9}, {15, 12, 7, 7}, {4, 15, 6, 5}, {18, 3, 5, 6}});
 }
 
 Rows skyline() {
@@ -161,13 +162,8 @@ Rows platforms() {
 }
 
 Rows rings() {
-  Rows rows = filled(22, 20, '.');
-  frame(rows, 2, 2, 5, 4, 'b');
-  frame(rows, 10, 3, 4, 4, 'b');
-  frame(rows, 3, 10, 4, 6, 'b');
-  frame(rows, 10, 11, 7, 4, 'b');
-  frame(rows, 17, 5, 3, 3, 'b');
-  return rows;
+  return frames(22, 20,
+                {{2, 2, 5, 4}, {10, 3, 4, 4}, {3, 10, 4, 6}, {10, 11, 7, 4}, {17, 5, 3, 3}});
 }
 
 /// A shore that winds, water on its left.

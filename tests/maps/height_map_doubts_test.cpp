@@ -24,8 +24,11 @@
 namespace exemplar {
 namespace {
 
+using test::ascGrid;
 using test::inputError;
+using test::Read;
 using test::readBytes;
+using test::readWarned;
 using test::TemporaryFolder;
 using test::tiff;
 using test::TiffTags;
@@ -36,26 +39,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-/// A grid of 5 x 4 heights 1, 2, ..., with `hole` in place of number 7 (counted from 0).
-std::string ascGrid(const std::string& keys, const std::string& hole) {
-  std::string text = "ncols 5\nnrows 4\ncellsize 10\n" + keys;
-  for (int p = 0; p < 20; ++p)
-    text += (p == 7 ? hole : std::to_string(p + 1)) + (p % 5 == 4 ? "\n" : " ");
-  return text;
-}
-
-struct Read {
-  HeightMap map;
-  Warnings warnings;
-};
-Read readWarned(const std::string& name, const std::string& bytes,
-                HeightMapFileOptions options = {}) {
-  Read read;
-  options.warnings = &read.warnings;
-  read.map = readHeightMap(bytes, name, options);
-  return read;
-}
 
 TEST(HeightMapFile, NamesTheFileAndLineOfWhatIsWrong) {
   const auto error = [](const std::string& name, const std::string& bytes) {

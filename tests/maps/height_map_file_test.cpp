@@ -22,11 +22,14 @@
 namespace exemplar {
 namespace {
 
+using test::ascGrid;
 using test::hills;
 using test::inputError;
 using test::kNan;
 using test::makeMap;
+using test::Read;
 using test::readBytes;
+using test::readWarned;
 using test::sampleMap;
 using test::TemporaryFolder;
 using test::tiff;
@@ -47,26 +50,6 @@ bool sameHeights(const Grid<float>& a, const Grid<float>& b) {
   for (std::size_t p = 0; p < a.count(); ++p)
     if (std::isnan(a[p]) ? !std::isnan(b[p]) : a[p] != b[p]) return false;
   return true;
-}
-
-/// A grid of 5 x 4 heights 1, 2, ..., with `hole` in place of number 7 (counted from 0).
-std::string ascGrid(const std::string& keys, const std::string& hole) {
-  std::string text = "ncols 5\nnrows 4\ncellsize 10\n" + keys;
-  for (int p = 0; p < 20; ++p)
-    text += (p == 7 ? hole : std::to_string(p + 1)) + (p % 5 == 4 ? "\n" : " ");
-  return text;
-}
-
-struct Read {
-  HeightMap map;
-  Warnings warnings;
-};
-Read readWarned(const std::string& name, const std::string& bytes,
-                HeightMapFileOptions options = {}) {
-  Read read;
-  options.warnings = &read.warnings;
-  read.map = readHeightMap(bytes, name, options);
-  return read;
 }
 
 TEST(HeightMapFile, KnowsItsEndings) {

@@ -33,6 +33,27 @@ inline double hills(double x, double y) {
   return 3 + 0.6 * std::sin(1.1 * x) + 0.5 * std::cos(0.9 * y + 0.4 * x);
 }
 
+/// A grid of 5 x 4 heights 1, 2, ..., with `hole` in place of number 7 (counted from 0).
+inline std::string ascGrid(const std::string& keys, const std::string& hole) {
+  std::string text = "ncols 5\nnrows 4\ncellsize 10\n" + keys;
+  for (int p = 0; p < 20; ++p)
+    text += (p == 7 ? hole : std::to_string(p + 1)) + (p % 5 == 4 ? "\n" : " ");
+  return text;
+}
+
+/// A height map, and what was warned of.
+struct Read {
+  HeightMap map;
+  Warnings warnings;
+};
+inline Read readWarned(const std::string& name, const std::string& bytes,
+                       HeightMapFileOptions options = {}) {
+  Read read;
+  options.warnings = &read.warnings;
+  read.map = readHeightMap(bytes, name, options);
+  return read;
+}
+
 /// What a .tif says about itself; without a value, nothing.
 struct TiffTags {
   std::uint32_t width = 2, height = 2;
