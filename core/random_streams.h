@@ -51,6 +51,8 @@ enum Name : std::uint32_t {
   kQuiltRims = 0x4C424C38,     ///< which labels close the gaps around them
   kWorldStart = 0x574C4431,    ///< of what a world begins with
   kWorldWindows = 0x574C4432,  ///< of each window of a world
+  // voxelize
+  kVolumeLayers = 0x564f4c31,  ///< the noise that volumes of labels are cut out of
   // measure
   kExampleWindows = 0x66706465,
   kResultWindows = 0x66706472,

@@ -12,14 +12,12 @@
 #include "core/cells.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "core/random_streams.h"
 #include "mesh/color.h"
 #include "mesh/toml_text.h"
 
 namespace exemplar {
 namespace {
-
-/// Of `core/random_streams.h`'s kind: the noise that volumes are cut out of.
-constexpr std::uint32_t kVolumeStream = 0x564f4c31;
 
 struct VolumeLayer {
   LabelLook look;
@@ -206,7 +204,7 @@ LabelGrid readVolumeScene(std::string_view text, const std::string& name,
     grid.labels.push_back(scene.layers[n].look);
     if (n > 0)
       cut(grid.cells, static_cast<Label>(n), scene.layers[n],
-          Random(scene.seed, kVolumeStream).fork(n));
+          Random(scene.seed, stream::kVolumeLayers).fork(n));
   }
   return grid;
 }
