@@ -4,15 +4,18 @@
 #include "sdf/vdb_grids.h"
 
 #include <openvdb/io/Archive.h>
-#include <openvdb/io/Stream.h>
+#include <openvdb/io/GridDescriptor.h>
+#include <openvdb/io/io.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -82,6 +85,49 @@ class ArchiveInMemory : public openvdb::io::Archive {
   }
 };
 
+/// Reads all grids of a file in memory, as `openvdb::io::Stream` does, looking at the sizes of each
+/// grid's names and metadata before OpenVDB takes memory for them.
+class GridsInMemory : public openvdb::io::Archive {
+ public:
+  static openvdb::GridPtrVec of(std::string& bytes) { return GridsInMemory().readAll(bytes); }
+
+ private:
+  openvdb::GridPtrVec readAll(std::string& bytes) {
+    if (!hasSoundMetadata(bytes)) throw std::runtime_error(kBeyond);
+    BytesBuffer buffer(bytes);
+    std::istream in(&buffer);
+    // OpenVDB does not look at the stream's state; with this, a read beyond the end throws.
+    in.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+    readHeader(in);
+    auto state = openvdb::SharedPtr<openvdb::io::StreamMetadata>(new openvdb::io::StreamMetadata);
+    openvdb::io::setStreamMetadataPtr(in, state, /*transfer=*/false);
+    setFormatVersion(in);
+    setLibraryVersion(in);
+    setDataCompression(in);
+    openvdb::MetaMap().readMeta(in);
+    const std::int64_t count = readGridCount(in);
+    if (!canHoldGrids(bytes, count)) throw std::runtime_error("it has too few bytes for its grids");
+
+    openvdb::GridPtrVec grids;
+    std::vector<openvdb::io::GridDescriptor> descriptors;
+    NamedGridMap byName;
+    for (std::int64_t i = 0; i < count; ++i) {
+      if (!hasSoundGridMetadata(bytes, static_cast<std::size_t>(in.tellg())))
+        throw std::runtime_error(kBeyond);
+      openvdb::io::GridDescriptor& descriptor = descriptors.emplace_back();
+      const openvdb::GridBase::Ptr grid = descriptor.read(in);
+      readGrid(grid, descriptor, in);
+      grids.push_back(grid);
+      byName[descriptor.uniqueName()] = grid;
+    }
+    for (const openvdb::io::GridDescriptor& descriptor : descriptors)
+      connectInstance(descriptor, byName);
+    return grids;
+  }
+
+  static constexpr const char* kBeyond = "its metadata goes beyond it";
+};
+
 }  // namespace
 
 void openvdbReady() { openvdb::initialize(); }
@@ -114,15 +160,8 @@ void withVdbGrids(const fs::path& path,
                   const std::function<void(const openvdb::GridPtrVec&)>& use) {
   openvdbReady();
   std::string bytes = readFile(path);
-  if (!hasSoundMetadata(bytes))
-    fail(path, "not a whole OpenVDB file (its metadata goes beyond it)");
   try {
-    BytesBuffer buffer(bytes);
-    std::istream in(&buffer);
-    // OpenVDB does not look at the stream's state; with this, a read beyond the end throws.
-    in.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
-    openvdb::io::Stream stream(in, /*delayLoad=*/false);
-    use(*stream.getGrids());
+    use(GridsInMemory::of(bytes));
   } catch (const InputError&) {
     throw;
   } catch (const Cancelled&) {

@@ -12,8 +12,10 @@ namespace {
 // A .vdb file begins with 8 bytes of magic number, the file's version, the library's two, one byte
 // for "says where grids end" and an id; before version 222 a byte for "compressed" stands between
 // these two, which each grid says of itself since.
-constexpr std::size_t kVersion = 8, kOffsets = 20, kId = 21, kIdLength = 36;
+constexpr std::size_t kVersion = 8, kId = 21, kIdLength = 36;
 constexpr std::uint32_t kFirstVersion = 220, kOwnCompression = 222;
+// A grid has at least the sizes of three names and three positions.
+constexpr std::size_t kLeastGrid = 3 * sizeof(std::uint32_t) + 3 * sizeof(std::int64_t);
 
 /// Goes through a file; every step says whether it stayed within.
 class Walk {
@@ -52,30 +54,33 @@ class Walk {
   std::uint64_t at_ = 0;
 };
 
+bool saysCompressionOfGrids(std::string_view bytes) {
+  std::uint32_t version = 0;
+  Walk walk(bytes);
+  return walk.goTo(kVersion) && walk.read(version) && version >= kOwnCompression;
+}
+
 }  // namespace
 
 bool hasSoundMetadata(std::string_view bytes) {
   Walk walk(bytes);
   std::uint32_t version = 0, grids = 0;
-  if (!walk.goTo(kVersion) || !walk.read(version)) return false;
-  const bool own = version >= kOwnCompression;
-  if (version < kFirstVersion || !walk.goTo(kId + (own ? 0 : 1) + kIdLength) ||
-      !walk.skipMetadata() || !walk.read(grids))
-    return false;
-  const bool saysEnds = bytes[kOffsets] != 0;
-  for (std::uint32_t grid = 0; grid < grids; ++grid) {
-    // Name, type, name of the grid whose values it shares; where it, its values and its end are.
-    std::uint64_t begin = 0, values = 0, end = 0;
-    for (int name = 0; name < 3; ++name) {
-      if (!walk.skipSized()) return false;
-    }
-    if (!walk.read(begin) || !walk.read(values) || !walk.read(end)) return false;
-    std::uint32_t compression = 0;
-    if ((own && !walk.read(compression)) || !walk.skipMetadata()) return false;
-    if (!saysEnds) return true;
-    if (!walk.goTo(end)) return false;
-  }
-  return true;
+  return walk.goTo(kVersion) && walk.read(version) && version >= kFirstVersion &&
+         walk.goTo(kId + (saysCompressionOfGrids(bytes) ? 0 : 1) + kIdLength) &&
+         walk.skipMetadata() && walk.read(grids);
+}
+
+bool hasSoundGridMetadata(std::string_view bytes, std::size_t at) {
+  Walk walk(bytes);
+  // Name, type, name of the grid whose values it shares; where it, its values and its end are.
+  std::uint32_t compression = 0;
+  return walk.goTo(at) && walk.skipSized() && walk.skipSized() && walk.skipSized() &&
+         walk.skip(3 * sizeof(std::int64_t)) &&
+         (!saysCompressionOfGrids(bytes) || walk.read(compression)) && walk.skipMetadata();
+}
+
+bool canHoldGrids(std::string_view bytes, std::int64_t count) {
+  return count >= 0 && static_cast<std::uint64_t>(count) <= bytes.size() / kLeastGrid;
 }
 
 }  // namespace exemplar

@@ -332,20 +332,31 @@ TEST(VdbFile, DamagedBytesAreReadOrRefusedButNothingElse) {
 /// OpenVDB takes as much memory as a damaged size says before it reads.
 TEST(VdbFile, RefusesSizesOfMetadataBeyondTheFile) {
   const TemporaryFolder folder;
-  writeVdb(folder / "whole.vdb", torusField(0.12, {14, 13, 12}));
-  const std::string whole = readFile(folder / "whole.vdb");
+  const auto grid = [](const char* name) {
+    const auto made = openvdb::FloatGrid::create(1.0f);
+    made->setName(name);
+    made->tree().setValue({1, 2, 3}, -1);
+    return made;
+  };
+  openvdb::io::File((folder / "whole.vdb").string())
+      .write(openvdb::GridPtrVec{grid("first"), grid("second")});
+  std::string whole = readFile(folder / "whole.vdb");
+  constexpr std::size_t kSaysWhereGridsEnd = 20;
   int tried = 0;
-  for (const std::string_view type : {"string", "int64", "vec3i"}) {
-    for (std::size_t at = whole.find(type); at != whole.npos; at = whole.find(type, at + 1)) {
-      std::string bytes = whole;
-      bytes.replace(at + type.size(), 4, "\xf0\xff\xff\xff");
-      test::writeBytes(folder / "damaged.vdb", bytes);
-      EXPECT_THAT(inputError([&] { readVdb(folder / "damaged.vdb"); }),
-                  HasSubstr("its metadata goes beyond it"));
-      ++tried;
+  for (const char says : {'\1', '\0'}) {
+    whole[kSaysWhereGridsEnd] = says;
+    for (const std::string_view type : {"string", "int64", "vec3i"}) {
+      for (std::size_t at = whole.find(type); at != whole.npos; at = whole.find(type, at + 1)) {
+        std::string bytes = whole;
+        bytes.replace(at + type.size(), 4, "\xf0\xff\xff\xff");
+        test::writeBytes(folder / "damaged.vdb", bytes);
+        EXPECT_THAT(inputError([&] { readVdb(folder / "damaged.vdb"); }),
+                    HasSubstr("its metadata goes beyond it"));
+        ++tried;
+      }
     }
   }
-  EXPECT_GT(tried, 4);
+  EXPECT_GT(tried, 16);
   std::string old = whole;
   old[8] = 0;  // the file's version, which lays out what follows
   test::writeBytes(folder / "old.vdb", old);
