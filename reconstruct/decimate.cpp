@@ -31,10 +31,15 @@ struct Traits : OpenMesh::DefaultTraits {
 using HalfedgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 using Quadric = OpenMesh::Geometry::QuadricT<double>;
 
-/// Cosine of the largest turn of a triangle in one collapse.
-constexpr double kLeastTurn = 0.5;
-/// Squared longest side over twice the area that no collapse makes worse: 1.15 where equilateral.
-constexpr double kSlender = 30;
+/// What a collapse may make of the triangles around it.
+struct Tolerance {
+  double leastTurn;  ///< cosine of the largest turn of a triangle in one collapse
+  /// Squared longest side over twice the area that no collapse makes worse: 1.15 where equilateral.
+  double slender;
+};
+/// From good triangles to what only a number of triangles far below the shape's detail needs: where
+/// balls are joined by necks, hardly a collapse turns nothing by more than 60 degrees.
+constexpr Tolerance kTolerances[] = {{0.5, 30}, {0.1, 100}, {-0.5, 1000}};
 /// Where the error is the same, short edges go first: what a unit of length counts as error.
 constexpr double kLengthCost = 1e-3;
 
@@ -60,6 +65,7 @@ class SurfaceDistance : public OpenMesh::Decimater::ModBaseT<HalfedgeMesh> {
     progress_ = progress;
     vertices_ = Base::mesh().n_vertices();
   }
+  void tolerate(const Tolerance& tolerance) { tolerance_ = tolerance; }
 
   void initialize() override {
     HalfedgeMesh& mesh = Base::mesh();
@@ -94,9 +100,10 @@ class SurfaceDistance : public OpenMesh::Decimater::ModBaseT<HalfedgeMesh> {
       const OpenMesh::Vec3d before = (mesh.point(b) - info.p0) % (mesh.point(c) - info.p0);
       const OpenMesh::Vec3d after = (mesh.point(b) - info.p1) % (mesh.point(c) - info.p1);
       const double areaBefore = before.norm(), areaAfter = after.norm();
-      if ((before | after) < kLeastTurn * areaBefore * areaAfter) return Base::ILLEGAL_COLLAPSE;
+      if ((before | after) < tolerance_.leastTurn * areaBefore * areaAfter)
+        return Base::ILLEGAL_COLLAPSE;
       const double slender = longest2(info.p1, mesh.point(b), mesh.point(c)) / areaAfter;
-      if (!(slender < kSlender) &&
+      if (!(slender < tolerance_.slender) &&
           !(slender < longest2(info.p0, mesh.point(b), mesh.point(c)) / areaBefore)) {
         return Base::ILLEGAL_COLLAPSE;
       }
@@ -121,8 +128,15 @@ class SurfaceDistance : public OpenMesh::Decimater::ModBaseT<HalfedgeMesh> {
   Progress progress_;
   std::size_t vertices_ = 0, collapses_ = 0;
   double error_ = 0;
+  Tolerance tolerance_ = kTolerances[0];
   std::vector<std::uint8_t> held_;  // bits of the axes along which a vertex may not move
 };
+
+std::size_t facesThere(const HalfedgeMesh& halfedges) {
+  std::size_t count = 0;
+  for ([[maybe_unused]] const auto f : halfedges.faces()) ++count;
+  return count;
+}
 
 void check(const TriangleMesh& mesh, const DecimateOptions& options) {
   if (!(options.error >= 0)) {
@@ -171,7 +185,14 @@ void decimate(TriangleMesh& mesh, const DecimateOptions& options, const Progress
   decimater.add(distance);
   decimater.module(distance).configure(options.error, std::move(held), progress.part(0.2, 0.95));
   decimater.initialize();
-  decimater.decimate_to_faces(0, static_cast<std::size_t>(options.triangles));
+  const auto wanted = static_cast<std::size_t>(options.triangles);
+  for (const Tolerance& tolerance : kTolerances) {
+    decimater.module(distance).tolerate(tolerance);
+    // The decimater counts faces that are gone already, too.
+    const std::size_t gone = halfedges.n_faces() - facesThere(halfedges);
+    decimater.decimate_to_faces(0, wanted + gone);
+    if (wanted == 0 || facesThere(halfedges) <= wanted) break;
+  }
   halfedges.garbage_collection();
 
   mesh.positions.resize(halfedges.n_vertices());

@@ -15,7 +15,8 @@ struct DecimateOptions {
   /// Edges are collapsed while the surface stays within about this distance of where it was, world
   /// units, >= 0.
   double error = 0;
-  /// Stop at this many triangles; 0: go as far as `error` allows.
+  /// Stop at this many triangles; 0: go as far as `error` allows. Where this is far below what the
+  /// shape needs, triangles become slender and turn far rather than remain.
   std::int64_t triangles = 0;
   /// Vertices in the faces of this box stay in them, and its edges stay sharp.
   std::optional<Box3d> box;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "mesh/primitives.h"
 #include "reconstruct/field_to_mesh.h"
 #include "tests/reconstruct/fields.h"
@@ -63,6 +64,31 @@ TEST(Decimate, StopsAtTheNumberAskedFor) {
   EXPECT_LE(mesh.triangles.size(), 500u);
   EXPECT_GE(mesh.triangles.size(), 490u);
   expectSound(mesh);
+}
+
+/// Necks between balls, where hardly a collapse turns no triangle far.
+TEST(Decimate, FusedBallsBecomeFew) {
+  std::vector<Vec3d> balls;
+  const Random random(2);
+  for (std::uint64_t b = 0; b < 150; ++b)
+    balls.push_back(
+        {44 * random.uniform(b, 0), 44 * random.uniform(b, 1), 44 * random.uniform(b, 2)});
+  const DistanceField field = makeField({48, 48, 48}, 1, {-2, -2, -2}, [&](const Vec3d& p) {
+    double nearest = 1e9;
+    for (const Vec3d& ball : balls) nearest = std::min(nearest, length(p - ball) - 4);
+    return nearest;
+  });
+  const TriangleMesh fine = fieldToMesh(field);
+  for (const std::int64_t share : {4, 16, 40}) {
+    SCOPED_TRACE(share);
+    TriangleMesh mesh = fine;
+    const auto wanted = static_cast<std::int64_t>(fine.triangles.size()) / share;
+    decimate(mesh, {.error = 1e9, .triangles = wanted, .box = field.box()});
+    EXPECT_LE(static_cast<double>(mesh.triangles.size()), 1.02 * static_cast<double>(wanted));
+    EXPECT_EQ(eulerCharacteristic(mesh), eulerCharacteristic(fine));
+    const MeshHealth health = meshHealth(mesh);
+    EXPECT_TRUE(health.closed() && health.manifold() && health.oriented());
+  }
 }
 
 TEST(Decimate, RefusesWhatItWouldSpoil) {
