@@ -6,9 +6,9 @@
 #include <array>
 #include <numeric>
 
+#include "core/loop_progress.h"
 #include "core/parallel.h"
 #include "reconstruct/adjacency.h"
-#include "core/loop_progress.h"
 
 namespace exemplar {
 namespace {
@@ -23,14 +23,15 @@ constexpr int kHalvings = 6;
 constexpr double kAtEnd = 0.1;
 constexpr float kUncut = -1;
 
-/// Triangles with a vertex at which materials meet.
-std::vector<std::uint32_t> borderTriangles(const TriangleMesh& mesh) {
+/// Triangles with a vertex at which regions meet.
+std::vector<std::uint32_t> borderTriangles(const TriangleMesh& mesh,
+                                           const std::vector<std::uint32_t>& region) {
   std::vector<std::uint32_t> seen(mesh.positions.size(), kNone);
   std::vector<std::uint8_t> mixed(mesh.positions.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t]) {
-      if (seen[v] == kNone) seen[v] = mesh.triangleMaterials[t];
-      mixed[v] |= seen[v] != mesh.triangleMaterials[t];
+      if (seen[v] == kNone) seen[v] = region[t];
+      mixed[v] |= seen[v] != region[t];
     }
   }
   std::vector<std::uint32_t> triangles;
@@ -43,12 +44,12 @@ std::vector<std::uint32_t> borderTriangles(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const MaterialAt& materialAt,
-                                              const Progress& progress) {
+std::vector<std::uint32_t> cutBorders(TriangleMesh& mesh, std::vector<std::uint32_t>& region,
+                                      const RegionAt& regionAt, const Progress& progress) {
   const std::size_t before = mesh.triangles.size();
   std::vector<std::uint32_t> parent(before);
   std::iota(parent.begin(), parent.end(), 0u);
-  const std::vector<std::uint32_t> zone = borderTriangles(mesh);
+  const std::vector<std::uint32_t> zone = borderTriangles(mesh, region);
   std::vector<std::uint8_t> inZone(before, 0);
   std::vector<float> cuts(3 * before, kUncut);  // where each halfedge is cut, 0..1
   LoopProgress done(progress, "cutting borders between materials", zone.size());
@@ -59,24 +60,24 @@ std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const Material
       inZone[t] = 1;
       const Vec3d normal = normalized(areaNormal(mesh, t)), middle = triangleMiddle(mesh, t);
       std::array<Vec3d, 3> p;
-      std::array<std::uint32_t, 3> material;
+      std::array<std::uint32_t, 3> at;
       for (int c = 0; c < 3; ++c) {
         const Vec3d& corner = mesh.positions[mesh.triangles[t][c]];
         p[c] = corner + (middle - corner) * kInside;
-        material[c] = materialAt(p[c], normal, t);
+        at[c] = regionAt(p[c], normal, t);
       }
-      if (material[0] == material[1] && material[1] == material[2]) {
-        mesh.triangleMaterials[t] = material[0];
+      if (at[0] == at[1] && at[1] == at[2]) {
+        region[t] = at[0];
         continue;
       }
-      mesh.triangleMaterials[t] = materialAt(middle, normal, t);
+      region[t] = regionAt(middle, normal, t);
       for (int c = 0; c < 3; ++c) {
         const int d = (c + 1) % 3;
-        if (material[c] == material[d]) continue;
+        if (at[c] == at[d]) continue;
         double low = 0, high = 1;
         for (int halving = 0; halving < kHalvings; ++halving) {
           const double s = (low + high) / 2;
-          (materialAt(p[c] + (p[d] - p[c]) * s, normal, t) == material[c] ? low : high) = s;
+          (regionAt(p[c] + (p[d] - p[c]) * s, normal, t) == at[c] ? low : high) = s;
         }
         cuts[3 * t + c] = static_cast<float>((low + high) / 2);
       }
@@ -110,6 +111,7 @@ std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const Material
     const std::size_t first = mesh.triangles.size();
     cutTriangle(mesh, t, {middles[3 * t], middles[3 * t + 1], middles[3 * t + 2]});
     parent.resize(mesh.triangles.size(), t);
+    region.resize(mesh.triangles.size(), region[t]);
     if (mesh.triangles.size() == first || !inZone[t]) continue;
     pieces.push_back(t);
     for (std::size_t p = first; p < mesh.triangles.size(); ++p) {
@@ -120,10 +122,17 @@ std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const Material
     progress.check();
     for (std::size_t n = n0; n < n1; ++n) {
       const std::uint32_t t = pieces[n];
-      mesh.triangleMaterials[t] =
-          materialAt(triangleMiddle(mesh, t), normalized(areaNormal(mesh, t)), parent[t]);
+      region[t] = regionAt(triangleMiddle(mesh, t), normalized(areaNormal(mesh, t)), parent[t]);
     }
   });
+  return parent;
+}
+
+std::vector<std::uint32_t> cutMaterialBorders(TriangleMesh& mesh, const RegionAt& materialAt,
+                                              const Progress& progress) {
+  std::vector<std::uint32_t> materials = mesh.triangleMaterials;
+  std::vector<std::uint32_t> parent = cutBorders(mesh, materials, materialAt, progress);
+  mesh.triangleMaterials = std::move(materials);
   return parent;
 }
 

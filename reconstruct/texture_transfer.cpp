@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -19,6 +20,34 @@ namespace exemplar {
 namespace {
 
 constexpr std::size_t kGrain = 256;
+
+/// What ends inside a triangle only where it is cut: charts that are large, and materials.
+struct Regions {
+  std::vector<std::uint32_t> of;     ///< of each triangle of the joined example
+  std::vector<std::uint32_t> first;  ///< the first triangle of each
+
+  Regions(const TriangleMesh& example, const std::vector<std::uint32_t>& charts,
+          std::span<const ExampleView> examples)
+      : of(example.triangles.size()) {
+    // Side of a square that is as large as a chart, in voxels, from which on its borders are cut.
+    constexpr double kLarge = 3;
+    double voxel = 0;
+    for (const ExampleView& view : examples) voxel = std::max(voxel, view.field.voxelSize);
+    std::vector<double> area(example.triangles.size(), 0);
+    for (std::size_t t = 0; t < charts.size(); ++t)
+      area[charts[t]] += length(areaNormal(example, t)) / 2;
+    // Those that are small are one region for each material.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
+    for (std::uint32_t t = 0; t < of.size(); ++t) {
+      const bool large = area[charts[t]] >= kLarge * kLarge * voxel * voxel;
+      const std::pair key(large ? charts[t] : kNone,
+                          example.hasMaterials() ? example.triangleMaterials[t] : 0);
+      const auto [found, added] = numbers.emplace(key, static_cast<std::uint32_t>(numbers.size()));
+      if (added) first.push_back(t);
+      of[t] = found->second;
+    }
+  }
+};
 
 /// Triangles that are alone among neighbors from elsewhere join them where that fits as well:
 /// each joint between copied parts is a jump in the texture, so joints should be short.
@@ -109,51 +138,61 @@ void matchCorners(const TriangleMesh& result, const TriangleSources& sources,
 void transferTriangleMaterials(TriangleMesh& result, const OriginPullView& pull,
                                const ExampleAttributes& attributes,
                                std::span<const ExampleView> examples,
+                               const std::vector<std::uint32_t>& charts,
                                const TransferOptions& options, const Progress& progress,
                                TriangleSources& sources) {
   progress.report("taking materials from the example", 0);
   const TriangleMesh& example = *attributes.mesh;
-  result.triangleMaterials.resize(result.triangles.size());
-  for (std::size_t t = 0; t < result.triangles.size(); ++t) {
-    result.triangleMaterials[t] = example.triangleMaterials[sources.triangle[t]];
-  }
+  const std::vector<std::uint32_t>& materials = example.triangleMaterials;
+  const Regions regions(example, charts, examples);
+  std::vector<std::uint32_t> region(result.triangles.size());
+  for (std::size_t t = 0; t < region.size(); ++t) region[t] = regions.of[sources.triangle[t]];
   std::vector<std::uint32_t> parent;
   if (options.cutBorders) {
-    const auto materialAt = [&](const Vec3d& point, const Vec3d& normal, std::uint32_t) {
+    const bool byMaterial = example.hasMaterials();
+    const auto regionAt = [&](const Vec3d& point, const Vec3d& normal, std::uint32_t) {
       Matches matches;
       pull.match(point, normal, matches);
-      return example.triangleMaterials[attributes.triangle(chooseMatch(matches, attributes, true))];
+      return regions.of[attributes.triangle(chooseMatch(matches, attributes, byMaterial))];
     };
-    parent = cutMaterialBorders(result, materialAt, progress.part(0, 0.7));
+    parent = cutBorders(result, region, regionAt, progress.part(0, 0.7));
   } else {
     parent.resize(result.triangles.size());
     std::iota(parent.begin(), parent.end(), 0u);
   }
-  cleanMaterialBorders(result, options.materialRounds);
-  const TriangleSources whole = sources;
+  result.triangleMaterials.clear();
+  if (example.hasMaterials()) {
+    for (const std::uint32_t r : region)
+      result.triangleMaterials.push_back(materials[regions.first[r]]);
+    cleanMaterialBorders(result, options.materialRounds);
+  }
+  const TriangleSources whole = std::move(sources);
+  sources = {};
   sources.motion.resize(parent.size());
   sources.triangle.resize(parent.size());
   sources.cost.resize(parent.size());
   parallelFor(0, parent.size(), kGrain, [&](std::size_t t0, std::size_t t1) {
     progress.check();
     for (std::size_t t = t0; t < t1; ++t) {
-      const std::uint32_t from = parent[t];
+      const std::uint32_t from = parent[t], source = whole.triangle[from];
       const OriginMotion& motion = whole.motion[from];
       sources.motion[t] = motion;
-      sources.triangle[t] = whole.triangle[from];
+      sources.triangle[t] = source;
       sources.cost[t] = whole.cost[from];
-      if (result.triangleMaterials[t] == example.triangleMaterials[whole.triangle[from]]) continue;
-      const std::span<const std::uint32_t> materials(
-          example.triangleMaterials.data() + attributes.first[motion.example],
-          examples[motion.example].mesh.triangles.size());
-      const auto match =
-          pull.matchUnder(motion, triangleMiddle(result, t), normalized(areaNormal(result, t)),
-                          materials, result.triangleMaterials[t]);
+      const bool cleaned = example.hasMaterials() &&
+                           result.triangleMaterials[t] != materials[regions.first[region[t]]];
+      const std::vector<std::uint32_t>& groups = cleaned ? materials : regions.of;
+      const std::uint32_t group = cleaned ? result.triangleMaterials[t] : region[t];
+      if (groups[source] == group) continue;
+      const std::span<const std::uint32_t> those(groups.data() + attributes.first[motion.example],
+                                                 examples[motion.example].mesh.triangles.size());
+      const auto match = pull.matchUnder(motion, triangleMiddle(result, t),
+                                         normalized(areaNormal(result, t)), those, group);
       if (match) {
         sources.triangle[t] = attributes.triangle(*match);
         sources.cost[t] = static_cast<float>(match->cost);
-      } else {
-        result.triangleMaterials[t] = example.triangleMaterials[whole.triangle[from]];
+      } else if (example.hasMaterials()) {
+        result.triangleMaterials[t] = materials[source];
       }
     }
   });
@@ -161,7 +200,8 @@ void transferTriangleMaterials(TriangleMesh& result, const OriginPullView& pull,
 
 void transferCoordinates(TriangleMesh& result, const std::vector<Vec3d>& normals,
                          const OriginPullView& pull, const ExampleAttributes& attributes,
-                         std::span<const ExampleView> examples, bool keepSources,
+                         std::span<const ExampleView> examples,
+                         const std::vector<std::uint32_t>& charts, bool keepSources,
                          const Progress& progress, TriangleSources sources) {
   constexpr const char* kStage = "taking texture coordinates from the example";
   progress.report(kStage, 0);
@@ -173,7 +213,6 @@ void transferCoordinates(TriangleMesh& result, const std::vector<Vec3d>& normals
                 pull, attributes, progress, sources);
   progress.report(kStage, 0.5);
   const TriangleMesh& example = *attributes.mesh;
-  const std::vector<std::uint32_t> charts = textureCharts(example);
   result.uvs.assign(result.triangles.size(), {});
   if (keepSources) result.sources.assign(result.triangles.size(), {});
   const auto matchAt = [&](std::uint32_t v, std::uint32_t t) {

@@ -18,20 +18,25 @@ namespace exemplar {
 // coordinates of one place of the example. The same bytes at any number of threads; both throw
 // `Cancelled`.
 
-/// Gives every triangle a material, with borders where the example has them. `sources` follow: a
-/// piece of a cut triangle comes from where its triangle did, but from a triangle of its material.
+/// Gives every triangle a material where the example has some, with borders between materials and
+/// between charts where the example has them; `charts` of the example's triangles
+/// (`textureCharts`). Borders of charts that are a voxel or two wide are left along triangle sides.
+/// `sources` follow: a piece of a cut triangle comes from where its triangle did, but from a
+/// triangle of its chart.
 void transferTriangleMaterials(TriangleMesh& result, const OriginPullView& pull,
                                const ExampleAttributes& attributes,
                                std::span<const ExampleView> examples,
+                               const std::vector<std::uint32_t>& charts,
                                const TransferOptions& options, const Progress& progress,
                                TriangleSources& sources);
 
 /// Gives each corner texture coordinates, looked up where the triangle's motion takes it but inside
 /// the chart of the triangle's middle; with `keepSources` the place of the example, too.
-/// `normals`: a unit normal per vertex.
+/// `normals`: a unit normal per vertex; `charts` of the example's triangles.
 void transferCoordinates(TriangleMesh& result, const std::vector<Vec3d>& normals,
                          const OriginPullView& pull, const ExampleAttributes& attributes,
-                         std::span<const ExampleView> examples, bool keepSources,
+                         std::span<const ExampleView> examples,
+                         const std::vector<std::uint32_t>& charts, bool keepSources,
                          const Progress& progress, TriangleSources sources);
 
 /// Gives each corner the place of the example where its triangle's motion takes it, for surfaces

@@ -139,9 +139,11 @@ void transferAppearance(TriangleMesh& result, const DistanceField& field, const 
     sources = matchTriangles(result, field, pull, attributes, manyMaterials, plan.coordinates,
                              progress.part(0.1, 0.3));
   }
-  if (manyMaterials && plan.coordinates) {
-    transferTriangleMaterials(result, pull, attributes, examples, options, progress.part(0.3, 0.5),
-                              sources);
+  std::vector<std::uint32_t> charts;
+  if (plan.coordinates) {
+    charts = textureCharts(example);
+    transferTriangleMaterials(result, pull, attributes, examples, charts, options,
+                              progress.part(0.3, 0.5), sources);
   } else if (manyMaterials) {
     transferPieceMaterials(result, pull, attributes, examples, field.voxelSize, options, sources,
                            progress.part(0.3, 0.5));
@@ -153,7 +155,7 @@ void transferAppearance(TriangleMesh& result, const DistanceField& field, const 
       vertexNormals(result, vertexCorners(result.triangles, result.positions.size()));
   for (Vec3d& n : normals) n = normalized(n);
   if (plan.coordinates) {
-    transferCoordinates(result, normals, pull, attributes, examples, options.sources,
+    transferCoordinates(result, normals, pull, attributes, examples, charts, options.sources,
                         progress.part(0.5, 0.8), std::move(sources));
   } else if (options.sources) {
     transferSources(

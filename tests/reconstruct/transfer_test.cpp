@@ -401,6 +401,65 @@ TEST(TransferAppearance, TextureCoordinatesAreTheExamplesWhereItIsFlat) {
   EXPECT_GT(checked, 500);
 }
 
+/// A sheet of one material in two squares of a texture that meet along a line which runs askew to
+/// the grid: the picture goes on to it from both sides, without teeth.
+TEST(TransferAppearance, ChartsEndWhereTheyEndOnTheExample) {
+  const auto beyond = [](const Vec3d& p) { return p.x + 0.37 * p.y > 0.11; };
+  TriangleMesh sheet = makeBox({{-1, -1, -0.3}, {1, 1, 0.3}});
+  const auto border = [](double y) { return 0.11 - 0.37 * y; };
+  sheet.positions.clear();
+  sheet.triangles.clear();
+  for (const double z : {-0.3, 0.3}) {
+    for (const double y : {-1.0, 1.0})
+      for (const double x : {-1.0, border(y), 1.0}) sheet.positions.push_back({x, y, z});
+  }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    sheet.triangles.push_back({a, b, c});
+    sheet.triangles.push_back({a, c, d});
+  };
+  for (const std::uint32_t x : {0u, 1u}) {
+    quad(x, x + 3, x + 4, x + 1);       // below
+    quad(x + 6, x + 7, x + 10, x + 9);  // above
+    quad(x, x + 1, x + 7, x + 6);       // the near side
+    quad(x + 3, x + 9, x + 10, x + 4);  // the far one
+  }
+  quad(0, 6, 9, 3);
+  quad(2, 5, 11, 8);
+  const auto uvAt = [](const Vec3d& p, bool right) {
+    return Vec2f{static_cast<float>(0.2 * p.x + (right ? 0.75 : 0.25)),
+                 static_cast<float>(0.2 * p.y + 0.5)};
+  };
+  for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
+    auto& corners = sheet.uvs.emplace_back();
+    for (int c = 0; c < 3; ++c)
+      corners[c] = uvAt(sheet.positions[sheet.triangles[t][c]], beyond(middle(sheet, t)));
+  }
+  sheet.materials.resize(1);
+  sheet.triangleMaterials.assign(sheet.triangles.size(), 0);
+
+  Sample s(sheet, 40);
+  ASSERT_TRUE(meshHealth(s.example).closed());
+  const std::size_t before = s.result.triangles.size();
+  transferAppearance(s.result, s.field, identityOrigins(s.field.size()), s.example, s.field);
+  validate(s.result, "result");
+  EXPECT_TRUE(meshHealth(s.result).closed());
+  EXPECT_GT(s.result.triangles.size(), before);
+  // Borders nearer to a vertex than a tenth of a side, which is a diagonal at most, go through it.
+  const auto slack = static_cast<float>(0.2 * 0.15 * s.field.voxelSize);
+  int checked = 0;
+  for (std::size_t t = 0; t < s.result.triangles.size(); ++t) {
+    for (int c = 0; c < 3; ++c) {
+      const Vec3d& p = s.result.positions[s.result.triangles[t][c]];
+      if (std::abs(p.z) < 0.299 || std::abs(p.x) > 0.9 || std::abs(p.y) > 0.9) continue;
+      const Vec2f uv = s.result.uvs[t][c], expected = uvAt(p, uv.x > 0.5f);
+      ASSERT_NEAR(uv.x, expected.x, slack);
+      ASSERT_NEAR(uv.y, expected.y, slack);
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 2000);
+}
+
 TEST(TransferAppearance, TexturesCanBeBakedIntoVertices) {
   Sample s(texturedCube(), 32);
   transferAppearance(s.result, s.field, identityOrigins(s.field.size()), s.example, s.field,
