@@ -47,6 +47,7 @@ Surface dressed(const Options& options, const ReadOptions& reading, const Surfac
   if (const auto scale = readOriginsScale(options.origins))
     asMade.wanted = Extent{.scale = scale, .size = {}};
   std::vector<Example> examples = readExamples(sources, asMade, progress.part(0, 0.3));
+  requireKept(options.outputs, surface.lods, examples);
   Result result = readResult(options.source, options.origins, examples);
   if (surface.detail > 1) {
     examples = refined(examples, surface.detail, progress.part(0.3, 0.5));
@@ -83,6 +84,7 @@ Surface surfaceOf(const Options& options, const ReadOptions& reading, const Surf
   if (surface.detail > 1) throw InputError("`detail` needs --origins and --example");
   if (surface.source) throw InputError("`source` needs --origins and --example");
   const Example example = readExample(options.source, reading, progress.part(0, 0.4));
+  requireKept(options.outputs, surface.lods, {&example, 1});
   for (const std::string& warning : example.warnings) terminal.warn(warning);
   terminal.say("example", example.description);
   return contourOf(example, surface, progress.part(0.4, 0.9));

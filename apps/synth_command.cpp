@@ -167,8 +167,10 @@ struct Times {
   double read = 0, synthesis = 0;
 };
 
-/// Refuses what cannot be written before it is made.
+/// Refuses what cannot be written, or would overwrite what the examples name, before it is made.
 void checkExtent(const Options& options, const Plan& plan, std::span<const Example> examples) {
+  for (int result = 0; result < options.results; ++result)
+    requireKept(numbered(options, result).outputs, plan.surface.lods, examples);
   const Vec3i size = plan.engine->extentOf(examples, plan.request);
   for (const std::string& output : options.outputs)
     requireOutputFits(output, plan.engine->form(), size);

@@ -285,6 +285,13 @@ Example readExample(const Source& source, const ReadOptions& options, const Prog
   return example;
 }
 
+MeshFileOptions meshReading(Example& example) {
+  MeshFileOptions file = example.reading.mesh;
+  file.warnings = &example.warnings;
+  file.beside = &example.beside;
+  return file;
+}
+
 Scene readSceneOf(const Source& source, const ReadOptions& options, const Progress& progress) {
   const SceneOptions scene{.seed = options.sceneSeed};
   if (const std::string* bytes = source.inMemory<std::string>())

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -151,6 +152,7 @@ struct Example {
   Turn turn;
   std::optional<HeightSteps> heightSteps;  ///< of a height map, to write one alike
   Warnings warnings;  ///< what the file holds that was left out or taken otherwise
+  std::vector<std::filesystem::path> beside;  ///< files that a mesh names: materials, pictures
 
   Form form() const { return static_cast<Form>(data.index()); }
   /// Throw `std::bad_variant_access` where it is of the other form.

@@ -26,6 +26,9 @@ void readAsHeights(Example& example, const Progress& progress);
 void paintFaces(const continuous::PolygonModel& model, const Example& example,
                 std::span<const std::uint32_t> faces, TriangleMesh& mesh);
 
+/// How the mesh of an example is read: what is left out, and which files it names, are kept in it.
+MeshFileOptions meshReading(Example& example);
+
 /// The scene of a file or its bytes.
 Scene readSceneOf(const Source& source, const ReadOptions& options, const Progress& progress);
 

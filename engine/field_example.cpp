@@ -55,9 +55,7 @@ void sampleScene(Example& example, const Progress& progress) {
 }
 
 void readMeshField(Example& example, const Progress& progress) {
-  MeshFileOptions file = example.reading.mesh;
-  file.warnings = &example.warnings;
-  sampleMesh(readTriangles(example.source, file, progress.part(0, 0.2)), example,
+  sampleMesh(readTriangles(example.source, meshReading(example), progress.part(0, 0.2)), example,
              progress.part(0.2, 1));
 }
 

@@ -31,9 +31,7 @@ struct GriddedMesh {
 GriddedMesh readGriddedMesh(Example& example, const Progress& progress) {
   GriddedMesh gridded;
   if (example.kind == SourceKind::Mesh || example.kind == SourceKind::Solids) {
-    MeshFileOptions file = example.reading.mesh;
-    file.warnings = &example.warnings;
-    gridded.mesh = readTriangles(example.source, file, progress);
+    gridded.mesh = readTriangles(example.source, meshReading(example), progress);
     gridded.what = "mesh";
     return gridded;
   }

@@ -28,6 +28,11 @@ namespace fs = std::filesystem;
 
 bool endsWith(const fs::path& path, const char* ending) { return lowerExtension(path) == ending; }
 
+fs::path wholePath(const fs::path& path) {
+  std::error_code error;
+  return fs::weakly_canonical(fs::absolute(path, error), error);
+}
+
 /// The path of one frame of a sequence: `roll.txt` becomes `roll_007.txt`.
 fs::path framePath(const fs::path& path, std::size_t frame) {
   char number[16];
@@ -207,15 +212,30 @@ std::vector<fs::path> filesOf(std::span<const std::string> outputs, int lods) {
 }
 
 void requireDistinct(std::span<const fs::path> files, std::span<const fs::path> inputs) {
-  const auto whole = [](const fs::path& path) {
-    std::error_code error;
-    return fs::weakly_canonical(fs::absolute(path, error), error);
-  };
   std::set<fs::path> taken;
-  for (const fs::path& path : inputs) taken.insert(whole(path));
+  for (const fs::path& path : inputs) taken.insert(wholePath(path));
   for (const fs::path& path : files) {
-    if (!taken.insert(whole(path)).second)
+    if (!taken.insert(wholePath(path)).second)
       throw InputError(path.string() + ": is read or written already; choose another name");
+  }
+}
+
+void requireKept(std::span<const std::string> outputs, int lods,
+                 std::span<const Example> examples) {
+  const std::vector<fs::path> files = filesOf(outputs, lods);
+  for (const Example& example : examples) {
+    for (const fs::path& named : example.beside) {
+      const fs::path kept = wholePath(named);
+      for (const fs::path& file : files) {
+        const fs::path written = wholePath(file);
+        const bool mayBePicture =
+            endsWith(file, ".obj") && kept.parent_path() == written.parent_path() &&
+            kept.filename().string().starts_with(written.stem().string() + "_");
+        if (kept == written || mayBePicture)
+          throw InputError(file.string() + ": would overwrite " + named.string() + ", which " +
+                           example.name() + " names; choose another name");
+      }
+    }
   }
 }
 

@@ -44,6 +44,11 @@ std::vector<std::filesystem::path> filesOf(std::span<const std::string> outputs,
 void requireDistinct(std::span<const std::filesystem::path> files,
                      std::span<const std::filesystem::path> inputs);
 
+/// Refuses outputs that would overwrite what a file of the examples names: its library of
+/// materials, its pictures. The pictures beside an `.obj` are named after it, and so may be any
+/// that begin so.
+void requireKept(std::span<const std::string> outputs, int lods, std::span<const Example> examples);
+
 /// Refuses an output that cannot hold instances, or that needs frames where the result has none.
 void requireOutputKind(const std::filesystem::path& path, bool hasFrames, bool instances);
 /// Refuses an output that cannot hold a result of `size`: a picture has one layer.

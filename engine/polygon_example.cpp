@@ -75,9 +75,7 @@ Solids solidsOf(const TriangleMesh& mesh, Example& example, const Progress& prog
 
 /// A mesh, snapped: its materials are the looks of its solids.
 void takeMesh(Example& example, const Progress& progress) {
-  MeshFileOptions file = example.reading.mesh;
-  file.warnings = &example.warnings;
-  TriangleMesh mesh = readTriangles(example.source, file, progress.part(0, 0.3));
+  TriangleMesh mesh = readTriangles(example.source, meshReading(example), progress.part(0, 0.3));
   continuous::SolidScene scene;
   try {
     scene.solids = solidsOf(mesh, example, progress.part(0.3, 1));
@@ -115,6 +113,7 @@ void readAsPolygons(Example& example, const Progress& progress) {
   for (continuous::StandIn& object : scene.standIns) {
     MeshFileOptions file;
     file.warnings = &example.warnings;
+    file.beside = &example.beside;
     object.mesh = readMesh(findScene(example.name()).parent_path() / object.file, file, progress);
   }
   continuous::PolygonModel model;

@@ -61,7 +61,8 @@ std::optional<fs::path> findFile(const fs::path& path) {
 
 /// The file called `name` in a file, as seen from the folder of that file; files that were written
 /// on another machine often name a folder that is not here, so the name alone is tried after that.
-std::optional<std::string> readSibling(const fs::path& folder, std::string name) {
+std::optional<std::string> readSibling(const fs::path& folder, std::string name,
+                                       std::vector<fs::path>* read) {
   for (char& c : name) {
     if (c == '\\') c = '/';
   }
@@ -71,7 +72,9 @@ std::optional<std::string> readSibling(const fs::path& folder, std::string name)
     if (candidate.empty() || candidate.is_absolute()) continue;
     const std::optional<fs::path> found = findFile(folder / candidate);
     std::error_code error;
-    if (found && fs::file_size(*found, error) > 0 && !error) return readFile(*found);
+    if (!found || fs::file_size(*found, error) == 0 || error) continue;
+    if (read) read->push_back(*found);
+    return readFile(*found);
   }
   return std::nullopt;
 }
@@ -102,8 +105,8 @@ TriangleMesh readMesh(std::string_view bytes, const std::string& name,
   if (format == Format::None) failAtEnding(name);
   MeshSource source{.name = name, .warnings = options.warnings, .progress = progress};
   if (options.folder) {
-    source.sibling = [folder = *options.folder](const std::string& file) {
-      return readSibling(folder, file);
+    source.sibling = [folder = *options.folder, read = options.beside](const std::string& file) {
+      return readSibling(folder, file, read);
     };
   }
   TriangleMesh mesh = format == Format::Obj   ? parseObj(bytes, source)

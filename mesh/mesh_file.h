@@ -33,6 +33,8 @@ struct MeshFileOptions {
   /// Where files are that a mesh names (materials, textures, buffers). By default the folder of the
   /// mesh's own file; none for bytes in memory, whose materials then keep only their names.
   std::optional<std::filesystem::path> folder;
+  /// Receives the path of each file of that folder that was read; null drops them.
+  std::vector<std::filesystem::path>* beside = nullptr;
 };
 
 /// Whether the path ends in one of the endings that `readMesh` and `writeMesh` know:

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "core/file.h"
+#include "mesh/image.h"
 #include "tests/apps/run_command.h"
 #include "tests/file_size_limit.h"
 
@@ -92,6 +93,26 @@ TEST(Places, OutputsFollowLinks) {
   fs::create_symlink("e.obj", folder / "l.obj");
   expectRefused(runExemplar("synth e.obj -o l.obj --resolution 16", folder.path()), "l.obj");
   EXPECT_EQ(readFile(folder / "e.obj"), kBox);
+}
+
+/// A mesh's own library and pictures are read, too.
+TEST(Places, WhatAnExampleNamesIsNotOverwritten) {
+  const TestFolder folder;
+  std::string named = kBox;
+  named.insert(0, "mtllib o.mtl\nusemtl wood\n");
+  writeFile(folder / "e.obj", named);
+  const std::string library = "newmtl wood\nKd 1 0 0\nmap_Kd p_wood.png\n";
+  writeFile(folder / "o.mtl", library);
+  writePng(folder / "p_wood.png", Image8{1, 1, 3, {9, 99, 199}});
+  const std::string picture = readFile(folder / "p_wood.png");
+  for (const char* command : {"synth", "mesh"}) {
+    const std::string run = std::string(command) + " e.obj --resolution 16 -o ";
+    expectRefused(runExemplar(run + "o.obj", folder.path()), "would overwrite o.mtl");
+    expectRefused(runExemplar(run + "p.obj", folder.path()), "would overwrite p_wood.png");
+    EXPECT_EQ(runExemplar(run + "made.obj", folder.path()).status, 0);
+  }
+  EXPECT_EQ(readFile(folder / "o.mtl"), library);
+  EXPECT_EQ(readFile(folder / "p_wood.png"), picture);
 }
 
 TEST(Places, NamesMayHaveSpacesQuotesAndUmlauts) {
