@@ -63,16 +63,7 @@ double areaQuantile(std::vector<std::pair<double, double>> values, double share)
   return values.empty() ? 1 : values.back().first;
 }
 
-void setStretch(const std::vector<StretchShare>& shares, SurfaceFigures& figures) {
-  std::vector<std::pair<double, double>> least, most;
-  for (const StretchShare& s : shares) {
-    least.emplace_back(s.least, s.area);
-    most.emplace_back(s.most, s.area);
-  }
-  figures.stretch05 = areaQuantile(std::move(least), 0.05);
-  figures.stretch95 = areaQuantile(std::move(most), 0.95);
-}
-
+/// The median of what placements that met others disagreed with them.
 double medianDisagreement(const Placements& placements) {
   std::vector<double> all;
   for (const Placement& p : placements.all)
@@ -80,6 +71,19 @@ double medianDisagreement(const Placements& placements) {
   if (all.empty()) return 0;
   std::sort(all.begin(), all.end());
   return all[all.size() / 2];
+}
+
+void setPlacements(const Placements& placements, const std::vector<StretchShare>& shares,
+                   SurfaceFigures& figures) {
+  figures.placements = static_cast<std::int64_t>(placements.all.size());
+  figures.disagreement = medianDisagreement(placements);
+  std::vector<std::pair<double, double>> least, most;
+  for (const StretchShare& s : shares) {
+    least.emplace_back(s.least, s.area);
+    most.emplace_back(s.most, s.area);
+  }
+  figures.stretch05 = areaQuantile(std::move(least), 0.05);
+  figures.stretch95 = areaQuantile(std::move(most), 0.95);
 }
 
 /// The share of the area where an edge's normals turn too much for what is `height` above it.
@@ -115,6 +119,50 @@ std::optional<Guidance> guidanceOf(const Sheet& sheet, const SurfaceOptions& opt
   return guidance;
 }
 
+/// The length of the example's longest side on the surface.
+double spanOf(const TriangleMesh& on, const SurfaceOptions& options) {
+  const double diagonal = length(boundingBox(on).size());
+  if (!(diagonal > 0)) throw InputError("`on`: the surface has no extent");
+  return options.span.value_or(kDefaultSpan * diagonal);
+}
+
+/// What is below the example; an open surface has no inside for it.
+Base baseOf(const Slab& slab, bool closed, const std::optional<Base>& asked) {
+  const Base base = asked.value_or(slab.grounded() && closed ? Base::Under : Base::None);
+  if (base != Base::None && !closed)
+    throw InputError(
+        "`base`: the surface is open, so that it has no inside; close it, or use none");
+  return base;
+}
+
+/// How large the parts are that are laid out flat.
+LocalMapOptions mappingOf(const Slab& slab, const Lattice& lattice, const SurfaceOptions& options,
+                          double sample) {
+  LocalMapOptions mapping;
+  mapping.sample = sample;
+  mapping.stretch = options.stretch;
+  mapping.shrink = 1 / options.stretch;
+  const double shorter = std::min(slab.size().x, slab.size().y);
+  double period = lattice.periods > 0 ? length(lattice.first) : 0;
+  if (lattice.periods > 1) period = std::max(period, length(lattice.second));
+  mapping.radius = std::max(kRadius * shorter, std::min(kLeastRadius, 0.45 * shorter));
+  mapping.leastRadius = std::min(mapping.radius, std::max(kLeastRadius, kLeastPeriods * period));
+  return mapping;
+}
+
+void setField(const Sheet& sheet, const DirectionField& field, SurfaceFigures& figures) {
+  figures.singularities = static_cast<std::int64_t>(field.singularities.size());
+  for (const Singularity& s : field.singularities)
+    figures.singularPlaces.push_back(sheet.positions[sheet.triangles[s.triangle][0]]);
+}
+
+void setSeams(const Sheet& sheet, const SheetSeams& seams, SurfaceFigures& figures) {
+  figures.seamShare =
+      static_cast<double>(seams.seamEdges) / static_cast<double>(sheet.edges.size());
+  if (seams.before > 0)
+    figures.seamCost = static_cast<double>(seams.after) / static_cast<double>(seams.before);
+}
+
 }  // namespace
 
 SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMesh& on,
@@ -127,71 +175,44 @@ SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMe
 
   const Slab slab(example);
   Lattice lattice = latticeOf(options.repetition);
-  SlabSymmetry symmetry = findSymmetry(slab, lattice, options.symmetry);
+  const SlabSymmetry symmetry = findSymmetry(slab, lattice, options.symmetry);
+  const double span = spanOf(on, options);
+  const double sample = span / std::max({slab.size().x, slab.size().y, slab.size().z});
+  figures.symmetry = symmetry.turns;
+  figures.periods = lattice.periods;
   stage("example");
 
-  const double diagonal = length(boundingBox(on).size());
-  if (!(diagonal > 0)) throw InputError("`on`: the surface has no extent");
-  const double span = options.span.value_or(kDefaultSpan * diagonal);
-  const int longest = std::max({slab.size().x, slab.size().y, slab.size().z});
-  const double sample = span / longest;
   const auto ofSheet =
       std::make_shared<const Sheet>(makeSheet(on, {.edge = kEdge * sample}, progress.part(0, 0.1)));
   const Sheet& sheet = *ofSheet;
   figures.nodes = static_cast<std::int64_t>(sheet.positions.size());
   figures.closed = sheet.closed();
-  figures.base =
-      options.base.value_or(slab.grounded() && figures.closed ? Base::Under : Base::None);
-  if (figures.base != Base::None && !figures.closed)
-    throw InputError(
-        "`base`: the surface is open, so that it has no inside; close it, or use none");
+  figures.base = baseOf(slab, figures.closed, options.base);
   stage("sheet");
 
   const std::optional<Guidance> guidance = guidanceOf(sheet, options, symmetry.turns, span, sample);
   const DirectionField field = smoothestField(
       sheet, symmetry.turns, guidance ? &*guidance : nullptr, progress.part(0.1, 0.2));
-  figures.symmetry = symmetry.turns;
-  figures.singularities = static_cast<std::int64_t>(field.singularities.size());
-  for (const Singularity& s : field.singularities)
-    figures.singularPlaces.push_back(sheet.positions[sheet.triangles[s.triangle][0]]);
+  setField(sheet, field, figures);
   stage("field");
+
   const Coordinates coordinates = integrate(sheet, field, lattice, sample, progress.part(0.2, 0.4));
-  figures.periods = lattice.periods;
   figures.dislocations = static_cast<std::int64_t>(coordinates.dislocations.size());
   stage("stripes");
 
-  LocalMapOptions mapping;
-  mapping.sample = sample;
-  mapping.stretch = options.stretch;
-  mapping.shrink = 1 / options.stretch;
-  const double shorter = std::min(slab.size().x, slab.size().y);
-  const double period = lattice.periods == 0 ? 0
-                        : lattice.periods == 1
-                            ? length(lattice.first)
-                            : std::max(length(lattice.first), length(lattice.second));
-  mapping.radius = std::max(kRadius * shorter, std::min(kLeastRadius, 0.45 * shorter));
-  mapping.leastRadius = std::min(mapping.radius, std::max(kLeastRadius, kLeastPeriods * period));
-  const LocalMapper mapper(sheet, coordinates, mapping);
-  PlacementOptions placing;
-  placing.seed = options.seed;
-  placing.symmetry = symmetry;
+  const LocalMapper mapper(sheet, coordinates, mappingOf(slab, lattice, options, sample));
   std::vector<StretchShare> stretch;
-  Placements placements = place(mapper, slab, placing, &stretch, progress.part(0.4, 0.6));
-  figures.placements = static_cast<std::int64_t>(placements.all.size());
-  figures.disagreement = medianDisagreement(placements);
-  setStretch(stretch, figures);
+  Placements placements = place(mapper, slab, {.seed = options.seed, .symmetry = symmetry},
+                                &stretch, progress.part(0.4, 0.6));
+  setPlacements(placements, stretch, figures);
   stage("placements");
 
-  const SheetSeams seams = cutSeams(sheet, slab, placements, {}, progress.part(0.6, 0.75));
-  figures.seamShare =
-      static_cast<double>(seams.seamEdges) / static_cast<double>(sheet.edges.size());
-  figures.seamCost =
-      seams.before > 0 ? static_cast<double>(seams.after) / static_cast<double>(seams.before) : 1;
+  setSeams(sheet, cutSeams(sheet, slab, placements, {}, progress.part(0.6, 0.75)), figures);
   stage("seams");
 
   const double height = (slab.top() - slab.low()) * options.height * sample;
-  figures.steepShare =
-      steepShare(sheet, figures.base == Base::None && !slab.grounded() ? height / 2 : height);
+  const bool standing = figures.base != Base::None || slab.grounded();
+  figures.steepShare = steepShare(sheet, standing ? height : height / 2);
   const auto feet = std::make_shared<const FootFinder>(sheet, progress.part(0.75, 0.78));
   const auto content = std::make_shared<const SheetContent>(mapper, placements);
   Band band = fillBand(sheet, *feet, *content, placements, slab, symmetry.turns,
@@ -199,14 +220,14 @@ SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMe
                        progress.part(0.78, 1));
   figures.bandSamples = band.samples;
   stage("band");
+
   if (options.patches > 0) {
-    UnrollOptions unrolling;
-    unrolling.patches = options.patches;
-    unrolling.layers = slab.size().z;
-    unrolling.sample = sample;
-    unrolling.zero = band.zero;
-    unrolling.height = options.height;
-    unrolling.seed = options.seed;
+    const UnrollOptions unrolling{.patches = options.patches,
+                                  .layers = slab.size().z,
+                                  .sample = sample,
+                                  .zero = band.zero,
+                                  .height = options.height,
+                                  .seed = options.seed};
     result.unrolled = unroll(sheet, field, coordinates.dislocations, band.field, unrolling);
     stage("unrolling");
   }
