@@ -132,7 +132,8 @@ void addLikeness(const surface::SurfaceResult& made, const Array3D<float>& examp
     return;
   }
   const int turns = made.figures.symmetry == 6 ? 2 : made.figures.symmetry;
-  const SurfaceLikeness likeness = surfaceLikeness(made.unrolled.patches, example, turns, progress);
+  const SurfaceLikeness likeness =
+      surfaceLikeness(made.unrolled.patches, made.unrolled.perSample, example, turns, progress);
   result.statistics.emplace_back("lp_dense", likeness.likeness);
   result.statistics.emplace_back("coverage", likeness.coverage);
   result.statistics.emplace_back("mean_iou", likeness.meanIou);

@@ -30,30 +30,72 @@ Occupancy sideBySide(std::span<const Array3D<float>> grids) {
   return Occupancy(cells);
 }
 
+/// Every nth place along x and y of a patch, from one on.
+Array3D<float> gridOf(const Array3D<float>& patch, int perSample, int x, int y) {
+  const Vec3i& size = patch.size();
+  Array3D<float> grid(
+      {(size.x - x + perSample - 1) / perSample, (size.y - y + perSample - 1) / perSample, size.z});
+  forEachCell(grid.size(), [&](const Vec3i& p) {
+    grid[p] = patch[{x + perSample * p.x, y + perSample * p.y, p.z}];
+  });
+  return grid;
+}
+
+/// The grid of a patch that is most like the example, by a few windows.
+Array3D<float> alignedGrid(const Array3D<float>& patch, int perSample, const Occupancy& examples,
+                           const Progress& progress) {
+  PatchLikenessOptions options;
+  options.border = WindowBorder::Interior;
+  options.windows = options.averaged = 8;
+  Array3D<float> best;
+  double highest = -1;
+  for (int y = 0; y < perSample; ++y) {
+    for (int x = 0; x < perSample; ++x) {
+      Array3D<float> grid = gridOf(patch, perSample, x, y);
+      const double iou =
+          perSample == 1
+              ? 1
+              : patchLikeness(sideBySide({&grid, 1}), examples, options, progress).meanIou;
+      if (iou <= highest) continue;
+      highest = iou;
+      best = std::move(grid);
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
-SurfaceLikeness surfaceLikeness(std::span<const Array3D<float>> patches,
+SurfaceLikeness surfaceLikeness(std::span<const Array3D<float>> patches, int perSample,
                                 const Array3D<float>& example, int turns,
                                 const Progress& progress) {
   if (patches.empty()) throw InputError("there are no patches to compare with the example");
   if (turns != 1 && turns != 2 && turns != 4)
     throw InputError("an example is turned 1, 2 or 4 times in once around");
+  if (perSample < 1) throw InputError("patches have one place to a sample, or more");
   for (const Array3D<float>& patch : patches)
-    if (!hasInteriorWindows(patch.size()))
+    if (!hasInteriorWindows(
+            {(patch.size().x - 1) / perSample, (patch.size().y - 1) / perSample, patch.size().z}))
       throw InputError("the patches have no room for a window of 11 samples");
   std::vector<Array3D<float>> turned;
   for (int k = 0; k < 4; k += 4 / turns) turned.push_back(turnedGrid(example, k));
-  const Occupancy examples = sideBySide(turned), all = sideBySide(patches);
+  const Occupancy examples = sideBySide(turned);
+  std::vector<Array3D<float>> grids;
+  for (const Array3D<float>& patch : patches)
+    grids.push_back(alignedGrid(
+        patch, perSample, examples,
+        progress.part(
+            0.5 * static_cast<double>(grids.size()) / static_cast<double>(patches.size()),
+            0.5 * static_cast<double>(grids.size() + 1) / static_cast<double>(patches.size()))));
+  const Occupancy all = sideBySide(grids);
 
   PatchLikenessOptions options;
   options.border = WindowBorder::Interior;
   SurfaceLikeness result;
   double alike = 0, iou = 0;
-  for (std::size_t p = 0; p < patches.size(); ++p) {
-    const PatchLikeness one = patchLikeness(
-        sideBySide(patches.subspan(p, 1)), examples, options,
-        progress.part(0.7 * static_cast<double>(p) / static_cast<double>(patches.size()),
-                      0.7 * static_cast<double>(p + 1) / static_cast<double>(patches.size())));
+  for (const Array3D<float>& grid : grids) {
+    const PatchLikeness one =
+        patchLikeness(sideBySide({&grid, 1}), examples, options, progress.part(0.5, 0.8));
     result.windows += one.windows;
     alike += one.share * static_cast<double>(one.windows);
     iou += one.meanIou * static_cast<double>(one.windows);
@@ -63,7 +105,7 @@ SurfaceLikeness surfaceLikeness(std::span<const Array3D<float>> patches,
     result.meanIou = iou / static_cast<double>(result.windows);
   }
   result.coverage =
-      patchLikeness(sideBySide(std::span(turned).first(1)), all, options, progress.part(0.7, 1))
+      patchLikeness(sideBySide(std::span(turned).first(1)), all, options, progress.part(0.8, 1))
           .share;
   return result;
 }

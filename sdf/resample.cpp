@@ -4,6 +4,7 @@
 #include "sdf/resample.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -52,6 +53,36 @@ DistanceField blockAverage(const DistanceField& field, int factor) {
         }
       });
   return result;
+}
+
+double cubicAt(const Array3D<float>& values, const Vec3d& at) {
+  const Vec3i& n = values.size();
+  std::array<std::array<int, 4>, 3> index;
+  std::array<std::array<double, 4>, 3> weight;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = std::clamp(at[axis], 0.0, n[axis] - 1.0);
+    const int below = std::min(static_cast<int>(x), std::max(n[axis] - 2, 0));
+    const double f = x - below;
+    for (int k = 0; k < 4; ++k) index[axis][k] = std::clamp(below + k - 1, 0, n[axis] - 1);
+    weight[axis] = {0.5 * f * (f * (2 - f) - 1), 0.5 * (f * f * (3 * f - 5) + 2),
+                    0.5 * f * (f * (4 - 3 * f) + 1), 0.5 * f * f * (f - 1)};
+  }
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) {
+    double layer = 0;
+    for (int j = 0; j < 4; ++j) {
+      double row = 0;
+      for (int i = 0; i < 4; ++i)
+        row += weight[0][i] * values(index[0][i], index[1][j], index[2][k]);
+      layer += weight[1][j] * row;
+    }
+    sum += weight[2][k] * layer;
+  }
+  return sum;
+}
+
+float sampleCubic(const DistanceField& field, const Vec3d& xyz) {
+  return static_cast<float>(cubicAt(field.values, (xyz - field.origin) / field.voxelSize));
 }
 
 float sampleTrilinear(const DistanceField& field, const Vec3d& xyz) {

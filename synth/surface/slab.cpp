@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "sdf/resample.h"
 
 namespace exemplar::surface {
 namespace {
@@ -255,20 +256,7 @@ Slab::Slab(const DistanceField& example) : values_(example.size()) {
 
 double Slab::value(const Vec2d& at, double z) const {
   const Vec3i n = size();
-  const double x = std::clamp(at.x, 0.0, n.x - 1.0), y = std::clamp(at.y, 0.0, n.y - 1.0);
-  const double inZ = std::clamp(z, 0.0, n.z - 1.0);
-  const int i = std::min(static_cast<int>(x), n.x - 2), j = std::min(static_cast<int>(y), n.y - 2),
-            k = std::min(static_cast<int>(inZ), n.z - 2);
-  const double fx = x - i, fy = y - j, fz = inZ - k;
-  const float* p = &values_(i, j, k);
-  const std::ptrdiff_t row = n.x, layer = static_cast<std::ptrdiff_t>(n.x) * n.y;
-  const auto along = [&](const float* q) { return q[0] + fx * (q[1] - q[0]); };
-  const auto plane = [&](const float* q) {
-    const double near = along(q);
-    return near + fy * (along(q + row) - near);
-  };
-  const double below = plane(p);
-  double value = below + fz * (plane(p + layer) - below);
+  double value = cubicAt(values_, {at.x, at.y, z});
   // Beyond the top it is air, below the bottom of a grounded one solid: farther by the way there.
   if (z > n.z - 1) value += z - (n.z - 1);
   if (z < 0) value += grounded_ ? z : -z;

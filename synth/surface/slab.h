@@ -32,8 +32,8 @@ class Slab {
   /// Of the highest solid of all.
   double top() const { return top_; }
 
-  /// Distance at a place and a height, in samples; trilinear, going on beyond the box as far as
-  /// the way out of it is long.
+  /// Distance at a place and a height, in samples; cubic (`cubicAt`), going on beyond the box as
+  /// far as the way out of it is long.
   double value(const Vec2d& at, double z) const;
   /// Whether a place has a column.
   bool has(const Vec2d& at) const {

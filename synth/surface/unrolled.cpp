@@ -24,8 +24,8 @@ struct Lifted {
   bool there = false;
 };
 
-/// All places of a square grid around the map's middle.
-std::vector<Lifted> lift(const Sheet& sheet, const LocalMap& map, int side) {
+/// All places of a square grid around the map's middle, `perSample` to a sample.
+std::vector<Lifted> lift(const Sheet& sheet, const LocalMap& map, int side, int perSample) {
   std::vector<Lifted> grid(static_cast<std::size_t>(side) * side);
   const int half = side / 2;
   for (std::uint32_t k = 0; k < map.nodes.size(); ++k) {
@@ -35,7 +35,7 @@ std::vector<Lifted> lift(const Sheet& sheet, const LocalMap& map, int side) {
       for (int c = 0; c < 3 && whole; ++c) {
         const std::uint32_t n = map.find(sheet.triangles[t][c]);
         whole = n != LocalMap::kNowhere;
-        if (whole) at[c] = map.at[n];
+        if (whole) at[c] = map.at[n] * perSample;
       }
       if (!whole) continue;
       const Mat2d from{at[1].x - at[0].x, at[2].x - at[0].x, at[1].y - at[0].y, at[2].y - at[0].y};
@@ -73,7 +73,8 @@ Unrolled unroll(const Sheet& sheet, const DirectionField& directions,
                 const std::vector<std::uint32_t>& dislocations, const DistanceField& field,
                 const UnrollOptions& options, const Progress& progress) {
   const Coordinates coordinates = integrate(sheet, directions, {}, options.sample);
-  const double radius = 0.75 * options.side;  // of the circle around the square, and a little more
+  // Of the circle around the square, and more where ways along edges are longest.
+  const double radius = 0.85 * options.side;
   LocalMapOptions mapping;
   mapping.sample = options.sample;
   mapping.radius = mapping.leastRadius = radius;
@@ -84,6 +85,7 @@ Unrolled unroll(const Sheet& sheet, const DirectionField& directions,
   for (const std::uint32_t t : dislocations) broken[sheet.triangles[t][0]] = 1;
 
   // Other draws than those of the synthesis.
+  const int places = options.perSample * (options.side - 1) + 1;
   const Random random = Random(options.seed, stream::kSurfaceSeeds).fork(1);
   const auto nodes = static_cast<std::uint32_t>(sheet.positions.size());
   constexpr int kTries = 4;
@@ -94,19 +96,20 @@ Unrolled unroll(const Sheet& sheet, const DirectionField& directions,
       progress.check();
       const LocalMap map = mapper.map(random.below(nodes, n));
       if (std::ranges::any_of(map.nodes, [&](std::uint32_t v) { return broken[v]; })) continue;
-      const std::vector<Lifted> grid = lift(sheet, map, options.side);
+      const std::vector<Lifted> grid = lift(sheet, map, places, options.perSample);
       if (!std::ranges::all_of(grid, &Lifted::there)) continue;
-      Array3D<float> patch({options.side, options.side, options.layers});
+      Array3D<float> patch({places, places, options.layers});
       forEachCell(patch.size(), [&](const Vec3i& p) {
-        const Lifted& place = grid[static_cast<std::size_t>(p.y) * options.side + p.x];
+        const Lifted& place = grid[static_cast<std::size_t>(p.y) * places + p.x];
         const double up = (p.z - options.zero) * options.sample * options.height;
-        patch[p] = static_cast<float>(sampleTrilinear(field, place.position + place.normal * up) /
+        patch[p] = static_cast<float>(sampleCubic(field, place.position + place.normal * up) /
                                       options.sample);
       });
       made[n] = std::move(patch);
     }
   });
   Unrolled result;
+  result.perSample = options.perSample;
   std::size_t skipped = 0, tried = 0;
   for (Array3D<float>& patch : made) {
     if (static_cast<int>(result.patches.size()) == options.patches) break;

@@ -18,6 +18,7 @@ namespace exemplar::surface {
 struct UnrollOptions {
   int patches = 40;   ///< at most so many, around random nodes
   int side = 27;      ///< of a patch, samples, odd
+  int perSample = 4;  ///< places for each sample, along x and y: where the grid is, is not known
   int layers = 16;    ///< of a patch along z
   double sample = 1;  ///< length of one on the surface
   double zero = 0;    ///< where the surface is along z, samples
@@ -26,8 +27,10 @@ struct UnrollOptions {
 };
 
 struct Unrolled {
-  /// Distances, in samples, of flat patches: x along the field's directions, z the height.
+  /// Distances, in samples, of flat patches: x along the field's directions, z the height;
+  /// perSample x (side - 1) + 1 places along x and y.
   std::vector<Array3D<float>> patches;
+  int perSample = 1;
   /// The share of the nodes tried whose patch would have held a singularity, a dislocation or a
   /// border.
   double skipped = 0;

@@ -56,23 +56,45 @@ Vec3d wholeCorner(int n) {
 
 TEST(SurfaceLikeness, PiecesOfTheExampleAreAlikeAndTogetherCoverIt) {
   const SurfaceLikeness found = surfaceLikeness(
-      patches([](int n, const Vec3d& p) { return p + wholeCorner(n); }), example(), 1);
+      patches([](int n, const Vec3d& p) { return p + wholeCorner(n); }), 1, example(), 1);
   EXPECT_GT(found.windows, 100);
   EXPECT_EQ(found.likeness, 1);
   EXPECT_GT(found.coverage, 0.9);
+}
+
+/// Thin wires, a part of a sample aside: nothing is like them but on the right grid.
+TEST(SurfaceLikeness, WhereTheGridIsIsFound) {
+  const auto wires = [](const Vec3d& p) {
+    const double x = std::fmod(p.x + 0.9 * std::sin(0.2 * p.y) + 90, 9) - 4.5;
+    return std::hypot(x, p.z - 7) - 1.75;
+  };
+  const Array3D<float> example = sampled({64, 64, 15}, wires);
+  constexpr int kPerSample = 4;
+  std::vector<Array3D<float>> coarse, fine;
+  for (int n = 0; n < 12; ++n) {
+    const Vec3d from = corner(n);
+    coarse.push_back(sampled({27, 27, 15}, [&](const Vec3d& p) { return wires(p + from); }));
+    fine.push_back(sampled({26 * kPerSample + 1, 26 * kPerSample + 1, 15}, [&](const Vec3d& p) {
+      return wires(Vec3d{p.x / kPerSample, p.y / kPerSample, p.z} + from);
+    }));
+  }
+  const double moved = surfaceLikeness(coarse, 1, example, 1).likeness;
+  const double aligned = surfaceLikeness(fine, kPerSample, example, 1).likeness;
+  EXPECT_GT(aligned, moved + 0.3);
+  EXPECT_GT(aligned, 0.85);
 }
 
 TEST(SurfaceLikeness, TurnedPiecesAreAlikeWhereTurnsAreAllowed) {
   const auto turned = patches([](int n, const Vec3d& p) {
     return wholeCorner(n) + Vec3d{26 - p.y, p.x, p.z};
   });
-  EXPECT_EQ(surfaceLikeness(turned, example(), 4).likeness, 1);
-  EXPECT_LT(surfaceLikeness(turned, example(), 1).likeness, 0.5);
+  EXPECT_EQ(surfaceLikeness(turned, 1, example(), 4).likeness, 1);
+  EXPECT_LT(surfaceLikeness(turned, 1, example(), 1).likeness, 0.5);
 }
 
 TEST(SurfaceLikeness, AWrongScaleIsNotAlike) {
   const SurfaceLikeness found = surfaceLikeness(
-      patches([](int n, const Vec3d& p) { return p * 1.25 + corner(n); }), example(), 1);
+      patches([](int n, const Vec3d& p) { return p * 1.25 + corner(n); }), 1, example(), 1);
   EXPECT_LT(found.likeness, 0.5);
 }
 
@@ -80,7 +102,7 @@ TEST(SurfaceLikeness, AMirroredFrameIsNotAlike) {
   const auto mirrored = patches([](int n, const Vec3d& p) {
     return wholeCorner(n) + Vec3d{26 - p.x, p.y, p.z};
   });
-  EXPECT_LT(surfaceLikeness(mirrored, example(), 4).likeness, 0.5);
+  EXPECT_LT(surfaceLikeness(mirrored, 1, example(), 4).likeness, 0.5);
 }
 
 TEST(SurfaceLikeness, ScatteredCopiesOfOnePartAreNotAlikeAndDoNotCover) {
@@ -90,7 +112,7 @@ TEST(SurfaceLikeness, ScatteredCopiesOfOnePartAreNotAlikeAndDoNotCover) {
                         const Vec3d q = p + wholeCorner(n);
                         return Vec3d{20 + std::fmod(q.x, 9), 20 + std::fmod(q.y, 9), q.z};
                       }),
-                      example(), 1);
+                      1, example(), 1);
   EXPECT_LT(found.likeness, 0.5);
   EXPECT_LT(found.coverage, 0.5);
   // One place, whole: alike, and less of a cover than many; its ridges come nearly the same again
@@ -98,17 +120,17 @@ TEST(SurfaceLikeness, ScatteredCopiesOfOnePartAreNotAlikeAndDoNotCover) {
   const SurfaceLikeness one = surfaceLikeness(patches([](int, const Vec3d& p) {
                                                 return p + Vec3d{5, 5, 0};
                                               }),
-                                              example(), 1);
+                                              1, example(), 1);
   EXPECT_EQ(one.likeness, 1);
   EXPECT_LT(one.coverage, 0.75);
 }
 
 TEST(SurfaceLikeness, RefusesWhatCannotBeCompared) {
-  EXPECT_THROW(surfaceLikeness({}, example(), 1), InputError);
+  EXPECT_THROW(surfaceLikeness({}, 1, example(), 1), InputError);
   const std::vector<Array3D<float>> small{Array3D<float>({8, 8, 8})};
-  EXPECT_THROW(surfaceLikeness(small, example(), 1), InputError);
+  EXPECT_THROW(surfaceLikeness(small, 1, example(), 1), InputError);
   const std::vector<Array3D<float>> good{Array3D<float>({27, 27, 15})};
-  EXPECT_THROW(surfaceLikeness(good, example(), 3), InputError);
+  EXPECT_THROW(surfaceLikeness(good, 1, example(), 3), InputError);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tests/sdf/shapes.h"
 
@@ -155,6 +156,42 @@ TEST(Quantize, OfWhatWasQuantizedChangesNothing) {
 TEST(Quantize, RefusesARangeThatIsNotPositive) {
   for (const float range : {0.0f, -1.0f, std::nanf(""), std::numeric_limits<float>::infinity()})
     EXPECT_THAT(inputError([&] { quantize(noise({2, 2, 2}, 14), range); }), HasSubstr("range"));
+}
+
+TEST(CubicAt, IsExactForQuadraticValuesAndAtSamples) {
+  const auto value = [](const Vec3d& p) {
+    return 0.3 * p.x * p.x - 0.2 * p.x * p.y + 0.7 * p.z * p.z + p.y - 4;
+  };
+  Array3D<float> values({9, 8, 7});
+  for (std::size_t s = 0; s < values.count(); ++s)
+    values.values()[s] = static_cast<float>(value(cast<double>(values.ijk(s))));
+  const Random random(4);
+  for (std::uint64_t n = 0; n < 200; ++n) {
+    const Vec3d p{1 + 6 * random.uniform(n, 0), 1 + 5 * random.uniform(n, 1),
+                  1 + 4 * random.uniform(n, 2)};
+    EXPECT_NEAR(cubicAt(values, p), value(p), 1e-5);
+  }
+  EXPECT_EQ(cubicAt(values, {3, 4, 5}), values(3, 4, 5));
+  // Beyond the outer samples it is as there.
+  EXPECT_EQ(cubicAt(values, {-2, 4, 20}), values(0, 4, 6));
+}
+
+/// A wire 3.5 samples thick keeps its thickness, which trilinear values take a part of.
+TEST(CubicAt, KeepsThinWires) {
+  DistanceField field;
+  field.values = Array3D<float>({16, 16, 16});
+  field.voxelSize = 1;
+  const auto wire = [](const Vec3d& p) { return std::hypot(p.x - 7.3, p.z - 7.6) - 1.75; };
+  for (std::size_t s = 0; s < field.values.count(); ++s)
+    field.values.values()[s] = static_cast<float>(wire(cast<double>(field.values.ijk(s))));
+  const auto share = [&](const auto& at) {
+    int inside = 0;
+    for (int i = 0; i < 200; ++i)
+      for (int k = 0; k < 200; ++k) inside += at(Vec3d{4 + 0.04 * i, 8, 4 + 0.04 * k}) < 0;
+    return inside * 0.04 * 0.04 / (std::numbers::pi * 1.75 * 1.75);
+  };
+  EXPECT_NEAR(share([&](const Vec3d& p) { return sampleCubic(field, p); }), 1, 0.02);
+  EXPECT_LT(share([&](const Vec3d& p) { return sampleTrilinear(field, p); }), 0.95);
 }
 
 }  // namespace
