@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/array3d.h"
@@ -70,6 +71,27 @@ void forEachBeside(const Vec3i& size, bool wraps, const Vec3i& p, std::size_t at
       body(at + stride);
     } else if (wraps) {
       body(at - around);
+    }
+  }
+}
+
+/// For each cell of a row along x 1 where it lies on one side of a shape, inside or outside, and a
+/// cell beside it on the other, else 0. With `wraps` the grid is a torus; else what lies beyond it
+/// counts as neither. `edges` has a row's length.
+void edgesOfRow(const Shape& shape, bool inside, bool wraps, int y, int z,
+                std::span<std::uint8_t> edges);
+/// Calls `body(p, index)` for each such cell, row by row.
+template <class Body>
+void forEachEdgeCell(const Shape& shape, bool inside, bool wraps, Body&& body) {
+  const Vec3i& size = shape.size();
+  std::vector<std::uint8_t> edges(static_cast<std::size_t>(size.x));
+  std::size_t at = 0;
+  Vec3i p;
+  for (p.z = 0; p.z < size.z; ++p.z) {
+    for (p.y = 0; p.y < size.y; ++p.y) {
+      edgesOfRow(shape, inside, wraps, p.y, p.z, edges);
+      for (p.x = 0; p.x < size.x; ++p.x, ++at)
+        if (edges[static_cast<std::size_t>(p.x)]) body(static_cast<const Vec3i&>(p), at);
     }
   }
 }
