@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/cells.h"
@@ -124,6 +125,40 @@ bool touches(const Shape& upper, const Shape& lower, bool wraps) {
   return static_cast<double>(contacts) > 0.001 * static_cast<double>(boundary.size());
 }
 
+Shape outsideOf(const Shape& shape) {
+  Shape outside(shape.size());
+  for (std::size_t p = 0; p < shape.count(); ++p) outside.data()[p] = !shape.data()[p];
+  return outside;
+}
+
+/// How far from a shape's outside the layer above goes, in cells, where it is a crust: nothing of
+/// it lies deeper, and a part of the shape does. What lies beyond the example is neither.
+std::optional<float> crustDepth(const Shape& upper, const Shape& lower, bool wraps) {
+  const Vec3i& size = lower.size();
+  const Array3D<float> depths = distanceTo(outsideOf(lower), wraps);
+  const auto known = [&](const Vec3i& p) {  // how far away the nearest cell is that is not known
+    const int flat = std::min({p.x + 1, p.y + 1, size.x - p.x, size.y - p.y});
+    const int least = size.z == 1 ? flat : std::min({flat, p.z + 1, size.z - p.z});
+    return wraps ? std::numeric_limits<float>::infinity() : static_cast<float>(least);
+  };
+  std::vector<float> ofUpper, ofLower;
+  std::size_t at = 0;
+  forEachCell(size, [&](const Vec3i& p) {
+    const std::size_t cell = at++;
+    if (!lower.data()[cell]) return;
+    const float depth = depths.data()[cell], most = known(p);
+    if (upper.data()[cell] && depth <= most) ofUpper.push_back(depth);
+    ofLower.push_back(std::min(depth, most));
+  });
+  if (ofUpper.empty()) return std::nullopt;
+  const auto last = ofUpper.begin() +
+                    static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(ofUpper.size() - 1));
+  std::ranges::nth_element(ofUpper, last);
+  const auto deeper = std::ranges::count_if(ofLower, [&](float depth) { return depth > *last; });
+  if (static_cast<double>(deeper) < 0.05 * static_cast<double>(ofLower.size())) return std::nullopt;
+  return *last;
+}
+
 /// Where the layer above an optimized one may be, and where it begins (section 3.3).
 struct Room {
   Shape mask, start;
@@ -140,10 +175,22 @@ Room roomAbove(const OptimizedShape& below, const ShapeExample& example, const S
   const float median = votes.medianWeight(below.placed.boundary);
   const bool apart = !touches(above, example.shape, options.exampleWraps);
   const std::vector<Vec3i> edge = boundaryOf(shape, true);
+  const std::optional<float> crust = crustDepth(above, example.shape, options.exampleWraps);
+  const Array3D<float> depths = crust ? distanceTo(outsideOf(shape), true) : Array3D<float>();
   Room room;
   // The strictest mask that has room for the layer.
-  for (const auto& [share, keepsOff] : {std::pair{0.15f, apart}, {0.0f, apart}, {0.0f, false}}) {
+  struct Strictness {
+    float share;
+    bool keepsOff, isCrust;
+  };
+  for (const auto& [share, keepsOff, isCrust] : {Strictness{0.15f, apart, crust.has_value()},
+                                                 {0.0f, apart, crust.has_value()},
+                                                 {0.0f, false, crust.has_value()},
+                                                 {0.0f, false, false}}) {
     room.mask = shape;
+    if (isCrust)
+      for (std::size_t p = 0; p < shape.count(); ++p)
+        room.mask.data()[p] &= depths.data()[p] <= *crust;
     for (std::size_t p = 0; p < shape.count(); ++p)
       if (votes.weight(p) >= 0.2f * median && votes.share(p) < share) room.mask.data()[p] = 0;
     if (keepsOff)

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "maps/distance_transform.h"
 #include "measure/layers.h"
@@ -256,6 +257,35 @@ TEST(SynthesizeLayers, ComesNearerToTheExampleThanItBegan) {
     return *l.layers[0].toExample + *l.layers[0].toResult;
   };
   EXPECT_LT(distance({}), 0.7 * distance(once));
+}
+
+TEST(OptimizeShape, ComesNearerOnEveryResolution) {
+  const Shape fine = layerShape(noiseLayers(256, 192, 2, 2), 2);
+  for (int factor = 1; factor <= 4; factor *= 2) {
+    Shape shape(Vec3i{256 / factor, 192 / factor, 1});
+    forEachCell(shape.size(), [&](const Vec3i& p) { shape[p] = fine[p * factor]; });
+    const ShapeExample example = shapeExample(shape, nullptr, nullptr, {}, Random(1));
+    // The mean distance of the boundary's patches to the patches that they are given.
+    const auto distance = [&](const Shape& of) {
+      const std::vector<Vec3i> boundary = boundaryOf(of, true);
+      const BoundaryPatches patches(of, boundary, 15, 1, true);
+      double sum = 0;
+      for (const BoundaryMatch& match :
+           assignPatches(patches, example.patches,
+                         fairUses(patches.count(), example.patches.count(), Random(2)),
+                         AssignmentKind::Greedy, Random(3)))
+        sum += match.distance;
+      return sum / static_cast<double>(patches.count());
+    };
+    // Noise: half of all squares of 4 x 4.
+    Shape start(shape.size());
+    const Random draws(5);
+    forEachCell(start.size(), [&](const Vec3i& p) {
+      start[p] = draws.uniform(static_cast<std::uint64_t>(p.y / 4 * 1000 + p.x / 4)) < 0.5;
+    });
+    const OptimizedShape made = optimizeShape(start, example, {}, {}, Random(6));
+    EXPECT_LT(distance(made.shape), 0.7 * distance(start)) << factor;
+  }
 }
 
 TEST(SynthesizeLayers, MakesDiscsOfDiscs) {
