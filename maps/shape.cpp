@@ -4,6 +4,7 @@
 #include "maps/shape.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/disjoint_sets.h"
 #include "core/simd.h"
@@ -134,10 +135,24 @@ std::vector<std::uint32_t> componentSizes(const Shape& shape, bool inside, bool 
   return sizes;
 }
 
-void removeSmall(Shape& shape, std::uint32_t inside, std::uint32_t outside, bool wraps) {
-  if (inside <= 1 && outside <= 1) return;
-  Components(shape, wraps).forEachRun([&](const Run& run, std::uint32_t cells, bool) {
-    if (cells < (run.inside ? inside : outside))
+void removeSmall(Shape& shape, const ComponentLimits& inside, const ComponentLimits& outside,
+                 bool wraps) {
+  Components components(shape, wraps);
+  std::vector<std::uint32_t> sizes[2];
+  components.forEachRun([&](const Run& run, std::uint32_t cells, bool first) {
+    if (first) sizes[run.inside].push_back(cells);
+  });
+  const auto leastOf = [&](bool side, const ComponentLimits& limits) {
+    std::vector<std::uint32_t>& all = sizes[side];
+    if (all.size() <= limits.most) return limits.least;
+    const auto last = all.begin() + static_cast<std::ptrdiff_t>(limits.most);
+    std::ranges::nth_element(all, last, std::greater{});
+    return std::max(limits.least,
+                    limits.most == 0 ? *last + 1 : *std::min_element(all.begin(), last));
+  };
+  const std::uint32_t least[] = {leastOf(false, outside), leastOf(true, inside)};
+  components.forEachRun([&](const Run& run, std::uint32_t cells, bool) {
+    if (cells < least[run.inside])
       std::fill(shape.data() + run.first, shape.data() + run.end, !run.inside);
   });
 }

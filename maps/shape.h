@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -109,8 +110,14 @@ double areaOf(const Shape& shape);
 /// The sizes of the components of cells of one value (1 inside, 0 outside) that are connected by
 /// sides, in cells, in the order of their first cells.
 std::vector<std::uint32_t> componentSizes(const Shape& shape, bool inside, bool wraps);
-/// Turns components of fewer cells over: `inside` is the least size of what is inside, `outside` of
-/// what is not.
-void removeSmall(Shape& shape, std::uint32_t inside, std::uint32_t outside, bool wraps);
+/// Which components stay: those of `least` cells or more, and of these the `most` largest (with all
+/// that are as large as the last).
+struct ComponentLimits {
+  std::uint32_t least = 0;
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+};
+/// Turns over the components that do not stay, of what is inside and of what is not.
+void removeSmall(Shape& shape, const ComponentLimits& inside, const ComponentLimits& outside,
+                 bool wraps);
 
 }  // namespace exemplar

@@ -121,10 +121,19 @@ void smooth(Shape& shape) {
   for (std::size_t p = 0; p < shape.count(); ++p) shape.data()[p] = sums.data()[p] >= most;
 }
 
-/// Removes what is smaller than anything in the example, unless nothing would be left.
-void removeSpecks(Shape& shape, const ShapeExample& example) {
+/// Removes what is smaller than anything in the example, and the smallest of more components than
+/// the example has, unless nothing would be left. Of a shape that was painted so many stay as there
+/// are.
+void removeSpecks(Shape& shape, const ShapeExample& example, bool isPainted) {
   Shape without = shape;
-  removeSmall(without, example.smallestInside, example.smallestOutside, true);
+  const auto limits = [&](const ShapeExample::Components& components) {
+    ComponentLimits stay{.least = components.smallest};
+    if (!isPainted)
+      stay.most = static_cast<std::size_t>(
+          std::ceil(components.perCell * static_cast<double>(shape.count())));
+    return stay;
+  };
+  removeSmall(without, limits(example.inside), limits(example.outside), true);
   const std::int64_t left = insideOf(without);
   if (left > 0 && left < static_cast<std::int64_t>(shape.count())) shape = std::move(without);
 }
@@ -176,7 +185,7 @@ Shape adjusted(const Shape& shape, const PatchVotes& votes, float median,
           smooth(changed);
           restoreClosed(shape, limits, changed);
         }
-        removeSpecks(changed, example);
+        removeSpecks(changed, example, limits.target.has_value());
         restoreClosed(shape, limits, changed);
         setArea(changed, target, votes, limits, random);
         errors[c] =
@@ -243,12 +252,14 @@ ShapeExample shapeExample(const Shape& shape, const Shape* below, const Shape* u
   example.area = static_cast<double>(insideOf(shape, &known)) / cells;
   example.boundary =
       static_cast<double>(boundaryCount(shape, options.exampleWraps, &known)) / cells;
-  const auto smallest = [&](bool inside) {
+  const auto components = [&](bool inside) {
     const std::vector<std::uint32_t> sizes = componentSizes(shape, inside, options.exampleWraps);
-    return sizes.empty() ? 0 : *std::ranges::min_element(sizes);
+    return ShapeExample::Components{
+        sizes.empty() ? 0 : *std::ranges::min_element(sizes),
+        static_cast<double>(sizes.size()) / static_cast<double>(shape.count())};
   };
-  example.smallestInside = smallest(true);
-  example.smallestOutside = smallest(false);
+  example.inside = components(true);
+  example.outside = components(false);
   const std::vector<Vec3i> centers = servingCenters(boundaryOf(shape, options.exampleWraps),
                                                     shape.size(), unknown, options, random);
   ShapePlanes planes(shape);
