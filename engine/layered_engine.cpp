@@ -18,6 +18,10 @@
 namespace exemplar {
 namespace {
 
+/// How much of a control map's changes within layers guides the texture. With all of it a texture
+/// shows rings where a layer is wider than the example shows often.
+constexpr float kWithinLayers = 1.0f / 3;
+
 std::string pixelsText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
@@ -70,6 +74,9 @@ Shape holeOf(const std::string& path, const Example& example) {
                      example.name() + " has " + pixelsText(map.width(), map.height()) +
                      ", and the two must be of one size");
   }
+  for (const Grid<float>& plane : picture.planes)
+    if (plane != white)
+      throw InputError(path + ": has colors; what is to be filled is said in black and white");
   Shape hole(Vec3i{white.width(), white.height(), 1});
   for (std::size_t p = 0; p < hole.count(); ++p) hole.data()[p] = white[p] > 0.5f;
   const std::int64_t cells = insideOf(hole);
@@ -133,6 +140,7 @@ class LayeredEngine final : public Engine {
     requireMemory(
         (140 + 16 * planes) * size.x * size.y + (240 + 16 * planes) * map.width() * map.height(),
         "layered synthesis", "ask for a smaller `size`");
+    requireTexturePatch({map.width(), map.height(), 1}, settings.texture);
     const Shape hole = holeOf(settings.inpaint, example);
     Result result;
     const Decomposition found = layersOf(example, settings, hole, progress.part(0, 0.15));
@@ -167,6 +175,7 @@ class LayeredEngine final : public Engine {
     } else {
       ControlMaps control =
           controlMaps(found.map, false, made.map, hole.empty(), progress.part(0.5, 0.55));
+      control.soften(kWithinLayers);
       exampleGuide.push_back(std::move(control.example));
       guide.push_back(std::move(control.result));
     }

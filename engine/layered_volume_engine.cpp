@@ -91,6 +91,7 @@ class LayeredVolumeEngine final : public Engine {
     requireMemory(
         160.0 * static_cast<double>(volume(size)) + 200.0 * static_cast<double>(grid.cells.count()),
         "layered synthesis", "ask for a smaller `size`");
+    requireTexturePatch(grid.size(), settings.texture);
     const LabelLayers found = layersOfLabels(grid, settings.order, example.name());
     const int count = layerCount(found.layers);
     Result result;

@@ -72,13 +72,25 @@ class BoundaryPatches {
   bool whole(std::size_t patch) const { return whole_[patch] != 0; }
   /// How many cells of the patch are inside the first shape; the same in every orientation.
   int inside(std::size_t patch) const { return inside_[patch]; }
+  /// The same of each block of an oriented patch: `kBlocks` numbers, 0 past the last block. All are
+  /// 0 where blocks would have more than 255 cells. Two patches differ in at least as many cells as
+  /// their blocks' numbers together.
+  static constexpr int kBlocks = 32;
+  const std::uint8_t* insideOfBlocks(std::size_t patch, int turn) const {
+    return &blocks_[(patch * symmetries_.size() + static_cast<std::size_t>(turn)) * kBlocks];
+  }
 
  private:
+  /// Packs one row of an oriented patch, given its cells' indices (negative where not known), from
+  /// this bit of each plane on.
+  void packRow(const ShapePlanes& planes, std::span<const std::int64_t> row, std::size_t patch,
+               std::size_t turn, std::size_t bit, std::span<const std::uint8_t> blockOf);
+
   int side_ = 0, cells_ = 0, words_ = 0, wholeWords_ = 0;
   std::vector<int> symmetries_;
   std::vector<Vec3i> centers_;
   std::vector<std::uint64_t> bits_, known_;
-  std::vector<std::uint8_t> whole_;
+  std::vector<std::uint8_t> whole_, blocks_;
   std::vector<int> inside_;
 };
 
@@ -96,7 +108,8 @@ int patchDistance(const BoundaryPatches& set, std::size_t a, const BoundaryPatch
                   std::size_t b, int turn);
 
 /// Finds the nearest patches of an example, exactly: no patch whose count of inside cells differs
-/// by more than the distance can be nearer, so that patches are visited by that count.
+/// by more than the distance can be nearer, so that patches are visited by that count, and compared
+/// only where the counts of their blocks leave it open.
 class NearestPatches {
  public:
   explicit NearestPatches(const BoundaryPatches& examples);
@@ -107,8 +120,13 @@ class NearestPatches {
             std::span<const std::uint32_t> left, std::vector<BoundaryMatch>& found) const;
 
  private:
+  /// The patch's best orientation among those that may be at most `limit` away; false if none may.
+  bool compare(const BoundaryPatches& set, std::size_t patch, std::size_t rank, int limit,
+               BoundaryMatch& match) const;
+
   const BoundaryPatches* examples_;
   std::vector<std::uint32_t> byInside_;  // whole patches, by their count of inside cells
+  std::vector<std::uint8_t> blocks_;     // of each of these, in each orientation
   std::vector<std::uint32_t> partial_;   // the others
 };
 

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "core/array3d.h"
@@ -74,6 +76,27 @@ void forEachBeside(const Vec3i& size, bool wraps, const Vec3i& p, std::size_t at
   }
 }
 
+/// For each cell of a row along x 1 where it lies on one side of a shape, inside or outside, and a
+/// cell beside it on the other, else 0. With `wraps` the grid is a torus; else what lies beyond it
+/// counts as neither. `edges` has a row's length.
+void edgesOfRow(const Shape& shape, bool inside, bool wraps, int y, int z,
+                std::span<std::uint8_t> edges);
+/// Calls `body(p, index)` for each such cell, row by row.
+template <class Body>
+void forEachEdgeCell(const Shape& shape, bool inside, bool wraps, Body&& body) {
+  const Vec3i& size = shape.size();
+  std::vector<std::uint8_t> edges(static_cast<std::size_t>(size.x));
+  std::size_t at = 0;
+  Vec3i p;
+  for (p.z = 0; p.z < size.z; ++p.z) {
+    for (p.y = 0; p.y < size.y; ++p.y) {
+      edgesOfRow(shape, inside, wraps, p.y, p.z, edges);
+      for (p.x = 0; p.x < size.x; ++p.x, ++at)
+        if (edges[static_cast<std::size_t>(p.x)]) body(static_cast<const Vec3i&>(p), at);
+    }
+  }
+}
+
 /// The boundary: cells inside that have one of the cells beside them outside, row by row. With
 /// `wraps` the grid is a torus; else what lies beyond it counts as neither.
 std::vector<Vec3i> boundaryOf(const Shape& shape, bool wraps);
@@ -87,8 +110,14 @@ double areaOf(const Shape& shape);
 /// The sizes of the components of cells of one value (1 inside, 0 outside) that are connected by
 /// sides, in cells, in the order of their first cells.
 std::vector<std::uint32_t> componentSizes(const Shape& shape, bool inside, bool wraps);
-/// Turns components of fewer cells over: `inside` is the least size of what is inside, `outside` of
-/// what is not.
-void removeSmall(Shape& shape, std::uint32_t inside, std::uint32_t outside, bool wraps);
+/// Which components stay: those of `least` cells or more, and of these the `most` largest (with all
+/// that are as large as the last).
+struct ComponentLimits {
+  std::uint32_t least = 0;
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+};
+/// Turns over the components that do not stay, of what is inside and of what is not.
+void removeSmall(Shape& shape, const ComponentLimits& inside, const ComponentLimits& outside,
+                 bool wraps);
 
 }  // namespace exemplar

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "core/disjoint_sets.h"
 #include "core/error.h"
@@ -236,6 +238,17 @@ Grid<float> smoothed(const Grid<float>& values) {
   return both;
 }
 
+/// How many different colors a texture has, counted up to `most`.
+std::size_t colorsOf(const MapLayer& texture, std::size_t most) {
+  std::set<std::vector<float>> colors;
+  for (std::size_t p = 0; p < texture.planes.front().count() && colors.size() < most; ++p) {
+    std::vector<float> color;
+    for (const Grid<float>& plane : texture.planes) color.push_back(plane[p]);
+    colors.insert(std::move(color));
+  }
+  return colors.size();
+}
+
 Decomposition finished(LayerVolume map, int layers) {
   Decomposition result;
   result.shares = layerShares(map, layers);
@@ -255,10 +268,11 @@ Decomposition decomposeTexture(const MapLayer& texture, const DecompositionOptio
                                std::uint64_t seed, const Progress& progress) {
   const Random random(seed, stream::kLayerClusters);
   const Grid<float>& first = texture.planes.front();
-  const bool plain = std::ranges::all_of(texture.planes, [](const Grid<float>& plane) {
-    return std::ranges::count(plane.values(), plane[0]) == std::ssize(plane.values());
-  });
-  if (plain) throw InputError("the example has one color, and so no layers");
+  const std::size_t colors = colorsOf(texture, static_cast<std::size_t>(options.layers));
+  if (colors < 2) throw InputError("the example has one color, and so no layers");
+  if (colors < static_cast<std::size_t>(options.layers))
+    throw InputError("`layers` " + std::to_string(options.layers) + ": the example has " +
+                     std::to_string(colors) + " colors, and at most as many layers");
   const Matrix points =
       features(texture, options.neighborhood, random.fork(1), progress.part(0, 0.6));
   const Eigen::Index step = std::max<Eigen::Index>(1, points.rows() / kClustered);

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/cells.h"
 #include "core/random_streams.h"
 #include "maps/distance_transform.h"
 #include "maps/halved.h"
+#include "synth/layered/texture_by_numbers.h"
 
 namespace exemplar {
 namespace {
@@ -116,12 +118,63 @@ Shape randomShape(const Vec3i& size, double share, const Random& random) {
   return largest(blurred(noise), noise, cellsOf(share, noise.count()), random);
 }
 
+/// The same in a hole, where noise leans toward what lies around it; elsewhere what is given.
+Shape randomShapeIn(const Shape& hole, const Shape& given, std::int64_t wanted,
+                    const Random& random) {
+  Planes around(1, Array3D<float>(given.size()));
+  Array3D<float> noise(given.size());
+  for (std::size_t p = 0; p < noise.count(); ++p) {
+    around[0].data()[p] = given.data()[p];
+    noise.data()[p] = static_cast<float>(random.uniform(p));
+  }
+  fillSmoothly(around, hole);
+  const Array3D<float> smooth = blurred(noise);
+  Array3D<float> wish = blurred(around[0]);
+  for (std::size_t p = 0; p < wish.count(); ++p)
+    wish.data()[p] = hole.data()[p] ? wish.data()[p] + smooth.data()[p] : given.data()[p] ? 9 : -9;
+  return largest(wish, noise, wanted, random);
+}
+
 /// Whether part of the upper shape touches what is outside the lower one.
 bool touches(const Shape& upper, const Shape& lower, bool wraps) {
   std::size_t contacts = 0;
   const std::vector<Vec3i> boundary = boundaryOf(lower, wraps);
   for (const Vec3i& p : boundary) contacts += upper[p];
   return static_cast<double>(contacts) > 0.001 * static_cast<double>(boundary.size());
+}
+
+Shape outsideOf(const Shape& shape) {
+  Shape outside(shape.size());
+  for (std::size_t p = 0; p < shape.count(); ++p) outside.data()[p] = !shape.data()[p];
+  return outside;
+}
+
+/// How far from a shape's outside the layer above goes, in cells, where it is a crust: nothing of
+/// it lies deeper, and a part of the shape does. What lies beyond the example is neither.
+std::optional<float> crustDepth(const Shape& upper, const Shape& lower, bool wraps) {
+  const Vec3i& size = lower.size();
+  const Array3D<float> depths = distanceTo(outsideOf(lower), wraps);
+  const auto known = [&](const Vec3i& p) {  // how far away the nearest cell is that is not known
+    const int flat = std::min({p.x + 1, p.y + 1, size.x - p.x, size.y - p.y});
+    const int least = size.z == 1 ? flat : std::min({flat, p.z + 1, size.z - p.z});
+    return wraps ? std::numeric_limits<float>::infinity() : static_cast<float>(least);
+  };
+  std::vector<float> ofUpper, ofLower;
+  std::size_t at = 0;
+  forEachCell(size, [&](const Vec3i& p) {
+    const std::size_t cell = at++;
+    if (!lower.data()[cell]) return;
+    const float depth = depths.data()[cell], most = known(p);
+    if (upper.data()[cell] && depth <= most) ofUpper.push_back(depth);
+    ofLower.push_back(std::min(depth, most));
+  });
+  if (ofUpper.empty()) return std::nullopt;
+  const auto last = ofUpper.begin() +
+                    static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(ofUpper.size() - 1));
+  std::ranges::nth_element(ofUpper, last);
+  const auto deeper = std::ranges::count_if(ofLower, [&](float depth) { return depth > *last; });
+  if (static_cast<double>(deeper) < 0.05 * static_cast<double>(ofLower.size())) return std::nullopt;
+  return *last;
 }
 
 /// Where the layer above an optimized one may be, and where it begins (section 3.3).
@@ -140,10 +193,22 @@ Room roomAbove(const OptimizedShape& below, const ShapeExample& example, const S
   const float median = votes.medianWeight(below.placed.boundary);
   const bool apart = !touches(above, example.shape, options.exampleWraps);
   const std::vector<Vec3i> edge = boundaryOf(shape, true);
+  const std::optional<float> crust = crustDepth(above, example.shape, options.exampleWraps);
+  const Array3D<float> depths = crust ? distanceTo(outsideOf(shape), true) : Array3D<float>();
   Room room;
   // The strictest mask that has room for the layer.
-  for (const auto& [share, keepsOff] : {std::pair{0.15f, apart}, {0.0f, apart}, {0.0f, false}}) {
+  struct Strictness {
+    float share;
+    bool keepsOff, isCrust;
+  };
+  for (const auto& [share, keepsOff, isCrust] : {Strictness{0.15f, apart, crust.has_value()},
+                                                 {0.0f, apart, crust.has_value()},
+                                                 {0.0f, false, crust.has_value()},
+                                                 {0.0f, false, false}}) {
     room.mask = shape;
+    if (isCrust)
+      for (std::size_t p = 0; p < shape.count(); ++p)
+        room.mask.data()[p] &= depths.data()[p] <= *crust;
     for (std::size_t p = 0; p < shape.count(); ++p)
       if (votes.weight(p) >= 0.2f * median && votes.share(p) < share) room.mask.data()[p] = 0;
     if (keepsOff)
@@ -268,10 +333,13 @@ class Layering {
       return start;
     }
     if (i == 2) {
-      Shape start =
-          coarser.empty() ? randomShape(size, likeness.area, random) : enlarged(coarser, size);
-      restore(start, limits.open, given);
-      return start;
+      if (!coarser.empty()) {
+        Shape start = enlarged(coarser, size);
+        restore(start, limits.open, given);
+        return start;
+      }
+      if (!limits.open) return randomShape(size, likeness.area, random);
+      return randomShapeIn(*limits.open, given, wantedCells(given, likeness.area, limits), random);
     }
     const std::int64_t target =
         limits.open ? wantedCells(given, likeness.area, limits)
@@ -332,13 +400,24 @@ SynthesizedLayers synthesizeLayers(const LayerVolume& example, const Vec3i& size
   return Layering(example, size, options).run(progress);
 }
 
+void ControlMaps::soften(float share) {
+  for (Array3D<float>* map : {&example, &result}) {
+    for (float& value : map->values()) {
+      // The top of the last layer is its own.
+      const float middle = std::min(std::floor(value), top) + 0.5f;
+      value = middle + share * (value - middle);
+    }
+  }
+}
+
 ControlMaps controlMaps(const LayerVolume& example, bool exampleWraps, const LayerVolume& result,
                         bool resultWraps, const Progress& progress) {
   const int layers = layerCount(example);
-  ControlMaps maps{Array3D<float>(example.size()), Array3D<float>(result.size())};
+  ControlMaps maps{Array3D<float>(example.size()), Array3D<float>(result.size()),
+                   static_cast<float>(layers)};
   for (int i = 1; i <= layers; ++i) {
     progress.report("smoothing layers", static_cast<double>(i - 1) / layers);
-    float most = 0;  // of the example's only distance, in the bottom and top layers
+    float mostDown = 0, mostUp = 0;  // of the example's distances in this layer
     for (const bool ofExample : {true, false}) {
       const LayerVolume& map = ofExample ? example : result;
       float* control = (ofExample ? maps.example : maps.result).data();
@@ -349,21 +428,23 @@ ControlMaps controlMaps(const LayerVolume& example, bool exampleWraps, const Lay
       const Array3D<float> toHigher = distanceTo(layerShape(map, i + 1), wraps);
       const float *down = toLower.data(), *up = toHigher.data();
       const bool bottom = i == 1, top = i == layers;
-      if (ofExample && (bottom || top)) {
+      if (ofExample) {
         for (std::size_t p = 0; p < map.count(); ++p) {
-          const float distance = bottom ? up[p] : down[p];
-          if (map.data()[p] == i && std::isfinite(distance)) most = std::max(most, distance);
+          if (map.data()[p] != i) continue;
+          if (std::isfinite(down[p])) mostDown = std::max(mostDown, down[p]);
+          if (std::isfinite(up[p])) mostUp = std::max(mostUp, up[p]);
         }
       }
       for (std::size_t p = 0; p < map.count(); ++p) {
         if (map.data()[p] != i) continue;
+        const float toDown = std::min(down[p], mostDown), toUp = std::min(up[p], mostUp);
         float within = 0.5f;
         if (bottom) {
-          within = 1 - (most > 0 ? std::min(1.0f, up[p] / most) : 0);
+          if (mostUp > 0) within = 1 - toUp / mostUp;
         } else if (top) {
-          within = most > 0 ? std::min(1.0f, down[p] / most) : 0;
-        } else if (std::isfinite(down[p]) && std::isfinite(up[p])) {
-          within = down[p] / (down[p] + up[p]);
+          if (mostDown > 0) within = toDown / mostDown;
+        } else if (toDown + toUp > 0) {
+          within = toDown / (toDown + toUp);
         }
         control[p] = static_cast<float>(i) + within;
       }

@@ -32,7 +32,7 @@ struct Decomposition {
 };
 /// A texture's layers: k-means clusters of its pixels' neighborhoods (their first 24 principal
 /// components), smoothed, ordered. O(pixels x neighborhood² x planes). Throws `InputError` where
-/// the texture has fewer different neighborhoods than layers, and `Cancelled`.
+/// the texture has fewer colors, or clusters that remain, than layers, and `Cancelled`.
 Decomposition decomposeTexture(const MapLayer& texture, const DecompositionOptions& options,
                                std::uint64_t seed, const Progress& progress = {});
 /// A height map's layers: equal areas between contour lines of the heights, smoothed by a Gaussian
@@ -72,9 +72,15 @@ LayerVolume withStrips(const LayerVolume& painted, const LayerVolume& example);
 
 /// Two maps' layers as numbers that change smoothly (equation 5): within layer i, i to i + 1, by
 /// the distances to what shows a lower layer and to what shows a higher one. The bottom and top
-/// layers, which have one neighbor, go as far as the example's do.
+/// layers, which have one neighbor, go as far as the example's do; so do the others where the
+/// result goes farther from a neighbor than the example ever does.
 struct ControlMaps {
   Array3D<float> example, result;
+  float top = 0;  ///< the highest layer
+
+  /// Leaves `share` of the changes within layers, 0..1, so that a step from one layer to the next
+  /// counts more than the way through one.
+  void soften(float share);
 };
 ControlMaps controlMaps(const LayerVolume& example, bool exampleWraps, const LayerVolume& result,
                         bool resultWraps, const Progress& progress = {});

@@ -11,6 +11,7 @@
 
 #include "core/cells.h"
 #include "core/parallel.h"
+#include "core/simd.h"
 
 namespace exemplar {
 namespace {
@@ -30,15 +31,8 @@ bool mayBeInside(const ShapeLimits& limits, std::size_t p) {
 /// (0).
 std::vector<std::size_t> ringOf(const Shape& shape, bool grows, const ShapeLimits& limits) {
   std::vector<std::size_t> ring;
-  std::size_t at = 0;
-  forEachCell(shape.size(), [&](const Vec3i& p) {
-    const std::size_t cell = at++;
-    if ((shape.data()[cell] != 0) == grows || !isOpen(limits, cell)) return;
-    if (grows && !mayBeInside(limits, cell)) return;
-    bool beside = false;
-    forEachBeside(shape.size(), true, p, cell,
-                  [&](std::size_t other) { beside |= (shape.data()[other] != 0) == grows; });
-    if (beside) ring.push_back(cell);
+  forEachEdgeCell(shape, !grows, true, [&](const Vec3i&, std::size_t cell) {
+    if (isOpen(limits, cell) && (!grows || mayBeInside(limits, cell))) ring.push_back(cell);
   });
   return ring;
 }
@@ -59,62 +53,87 @@ std::vector<std::size_t> seedOf(const Shape& shape, bool grows, const PatchVotes
   return seed;
 }
 
-/// The cells that are certain enough, as votes want them; the others as they are.
-Shape majority(const Shape& shape, const PatchVotes& votes, float threshold,
-               const ShapeLimits& limits) {
-  Shape changed = shape;
-  std::uint8_t* inside = changed.data();
-  for (std::size_t p = 0; p < shape.count(); ++p) {
-    if (!isOpen(limits, p)) continue;
-    if (votes.weight(p) >= threshold && votes.weight(p) > 0)
-      inside[p] = votes.inside.data()[p] > votes.outside.data()[p];
-    if (!mayBeInside(limits, p)) inside[p] = 0;
+/// Of one row: the cells that are certain enough, as votes want them; the others as they are.
+EXEMPLAR_MULTIVERSION
+void decideRow(const float* inside, const float* outside, float threshold, int length,
+               std::uint8_t* shape) {
+  for (int x = 0; x < length; ++x) {
+    const float weight = inside[x] + outside[x];
+    const bool sure = (weight >= threshold) & (weight > 0);
+    shape[x] = static_cast<std::uint8_t>(sure ? inside[x] > outside[x] : shape[x] != 0);
   }
+}
+
+/// The cells that are certain enough, as votes want them; the others as they are. Limits are not
+/// heeded.
+Shape majority(const Shape& shape, const PatchVotes& votes, float threshold) {
+  Shape changed = shape;
+  const int length = shape.size().x;
+  for (std::size_t p = 0; p < shape.count(); p += static_cast<std::size_t>(length))
+    decideRow(votes.inside.data() + p, votes.outside.data() + p, threshold, length,
+              changed.data() + p);
   return changed;
+}
+
+EXEMPLAR_MULTIVERSION
+void addRows(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, int length,
+             std::uint8_t* sums) {
+  for (int x = 0; x < length; ++x) sums[x] = static_cast<std::uint8_t>(a[x] + b[x] + c[x]);
 }
 
 /// The sums of three neighbors along an axis, on the torus.
 Array3D<std::uint8_t> summedAlong(const Array3D<std::uint8_t>& values, int axis) {
   const Vec3i& size = values.size();
   Array3D<std::uint8_t> sums(size);
-  Vec3i step{};
-  step[axis] = 1;
-  std::size_t at = 0;
-  forEachCell(size, [&](const Vec3i& p) {
-    sums.data()[at] =
-        static_cast<std::uint8_t>(values.data()[at] + values[wrappedPlace(p - step, size)] +
-                                  values[wrappedPlace(p + step, size)]);
-    ++at;
+  const Vec3i step{0, axis == 1, axis == 2};
+  forEachCell(Vec3i{1, size.y, size.z}, [&](const Vec3i& p) {
+    const std::uint8_t* row = &values[p];
+    std::uint8_t* to = &sums[p];
+    const int n = size.x;
+    if (axis > 0) {
+      addRows(&values[wrappedPlace(p - step, size)], row, &values[wrappedPlace(p + step, size)], n,
+              to);
+      return;
+    }
+    const auto at = [&](int x) { return row[wrappedCoordinate(x, n)]; };
+    to[0] = static_cast<std::uint8_t>(at(-1) + at(0) + at(1));
+    to[n - 1] = static_cast<std::uint8_t>(at(n - 2) + at(n - 1) + at(n));
+    if (n > 2) addRows(row, row + 1, row + 2, n - 2, to + 1);
   });
   return sums;
 }
 
+void restoreClosed(const Shape& was, const ShapeLimits& limits, Shape& shape) {
+  if (limits.mask)
+    for (std::size_t p = 0; p < shape.count(); ++p)
+      if (!limits.mask->data()[p]) shape.data()[p] = 0;
+  if (limits.open)
+    for (std::size_t p = 0; p < shape.count(); ++p)
+      if (!limits.open->data()[p]) shape.data()[p] = was.data()[p];
+}
+
 /// The majority of the 3 x 3 (in space 3 x 3 x 3) cells: a shorter boundary.
-Shape smoothed(const Shape& shape, const ShapeLimits& limits) {
+void smooth(Shape& shape) {
   const bool flat = shape.size().z == 1;
   Array3D<std::uint8_t> sums = summedAlong(summedAlong(shape, 0), 1);
   if (!flat) sums = summedAlong(sums, 2);
   const int most = flat ? 5 : 14;
-  Shape smooth = shape;
-  for (std::size_t p = 0; p < shape.count(); ++p)
-    if (isOpen(limits, p)) smooth.data()[p] = mayBeInside(limits, p) && sums.data()[p] >= most;
-  return smooth;
+  for (std::size_t p = 0; p < shape.count(); ++p) shape.data()[p] = sums.data()[p] >= most;
 }
 
-void restoreClosed(const Shape& was, const ShapeLimits& limits, Shape& shape) {
-  for (std::size_t p = 0; p < shape.count(); ++p) {
-    if (!isOpen(limits, p)) {
-      shape.data()[p] = was.data()[p];
-    } else if (!mayBeInside(limits, p)) {
-      shape.data()[p] = 0;
-    }
-  }
-}
-
-/// Removes what is smaller than anything in the example, unless nothing would be left.
-void removeSpecks(Shape& shape, const ShapeExample& example) {
+/// Removes what is smaller than anything in the example, and the smallest of more components than
+/// the example has, unless nothing would be left. Of a shape that was painted so many stay as there
+/// are.
+void removeSpecks(Shape& shape, const ShapeExample& example, bool isPainted) {
   Shape without = shape;
-  removeSmall(without, example.smallestInside, example.smallestOutside, true);
+  const auto limits = [&](const ShapeExample::Components& components) {
+    ComponentLimits stay{.least = components.smallest};
+    if (!isPainted)
+      stay.most = static_cast<std::size_t>(
+          std::ceil(components.perCell * static_cast<double>(shape.count())));
+    return stay;
+  };
+  removeSmall(without, limits(example.inside), limits(example.outside), true);
   const std::int64_t left = insideOf(without);
   if (left > 0 && left < static_cast<std::int64_t>(shape.count())) shape = std::move(without);
 }
@@ -157,12 +176,16 @@ Shape adjusted(const Shape& shape, const PatchVotes& votes, float median,
   parallelFor(0, all.size(), 1, [&](std::size_t first, std::size_t last) {
     progress.check();
     for (std::size_t c = first; c < last; ++c) {
-      Shape changed = majority(shape, votes, all[c].threshold, limits);
+      Shape changed = majority(shape, votes, all[c].threshold);
+      restoreClosed(shape, limits, changed);
       if (byArea) {
         errors[c] = std::abs(static_cast<double>(insideOf(changed) - target));
       } else {
-        for (int n = 0; n < all[c].smoothings; ++n) changed = smoothed(changed, limits);
-        removeSpecks(changed, example);
+        for (int n = 0; n < all[c].smoothings; ++n) {
+          smooth(changed);
+          restoreClosed(shape, limits, changed);
+        }
+        removeSpecks(changed, example, limits.target.has_value());
         restoreClosed(shape, limits, changed);
         setArea(changed, target, votes, limits, random);
         errors[c] =
@@ -229,12 +252,14 @@ ShapeExample shapeExample(const Shape& shape, const Shape* below, const Shape* u
   example.area = static_cast<double>(insideOf(shape, &known)) / cells;
   example.boundary =
       static_cast<double>(boundaryCount(shape, options.exampleWraps, &known)) / cells;
-  const auto smallest = [&](bool inside) {
+  const auto components = [&](bool inside) {
     const std::vector<std::uint32_t> sizes = componentSizes(shape, inside, options.exampleWraps);
-    return sizes.empty() ? 0 : *std::ranges::min_element(sizes);
+    return ShapeExample::Components{
+        sizes.empty() ? 0 : *std::ranges::min_element(sizes),
+        static_cast<double>(sizes.size()) / static_cast<double>(shape.count())};
   };
-  example.smallestInside = smallest(true);
-  example.smallestOutside = smallest(false);
+  example.inside = components(true);
+  example.outside = components(false);
   const std::vector<Vec3i> centers = servingCenters(boundaryOf(shape, options.exampleWraps),
                                                     shape.size(), unknown, options, random);
   ShapePlanes planes(shape);

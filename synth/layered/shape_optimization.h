@@ -42,8 +42,12 @@ struct ShapeExample {
   BoundaryPatches patches;  ///< around its boundary
   double area = 0;          ///< share of cells inside
   double boundary = 0;      ///< share of cells on the boundary
-  /// Cells of the smallest component inside, and outside.
-  std::uint32_t smallestInside = 0, smallestOutside = 0;
+  /// Components of what is inside, and of what is not: cells of the smallest, and how many there
+  /// are for each cell of the example.
+  struct Components {
+    std::uint32_t smallest = 0;
+    double perCell = 0;
+  } inside, outside;
 };
 /// At most so many boundary patches of an example are used, drawn at random from all.
 inline constexpr std::size_t kMostExamplePatches = 6000;

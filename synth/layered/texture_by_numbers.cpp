@@ -176,13 +176,18 @@ TextureOrigins layerOrigins(const MatchedTexture& matched, const TextureTask& ta
   return from;
 }
 
+void requireTexturePatch(const Vec3i& exampleSize, const TextureOptions& options) {
+  const int least = leastSide(exampleSize);
+  if (least > options.patch) return;
+  throw InputError("the example is " + std::to_string(least) + " cells wide, and patches of " +
+                   std::to_string(options.patch) + " cells (`texture-patch`) need " +
+                   std::to_string(options.patch + 1));
+}
+
 MatchedTexture matchTexture(const TextureTask& task, const TextureOptions& options,
                             const Progress& progress) {
+  requireTexturePatch(task.exampleSize(), options);
   const int least = leastSide(task.exampleSize());
-  if (least < options.patch + 1) {
-    throw InputError("the example is smaller than a patch of " + std::to_string(options.patch) +
-                     " cells");
-  }
   int levels = 1;
   for (int side = std::min(least, leastSide(task.size()));
        levels < options.levels && side / 2 >= 4 * options.patch; side /= 2)

@@ -55,6 +55,9 @@ struct TextureTask {
   const Vec3i& size() const { return guide.front().size(); }
 };
 
+/// Throws `InputError` where an example is too small for the texture's patches.
+void requireTexturePatch(const Vec3i& exampleSize, const TextureOptions& options);
+
 /// For each cell of a result the cell of the example in the middle of the patch that fits best
 /// around it, and how well it fits.
 struct MatchedTexture {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/file.h"
 #include "mesh/image.h"
@@ -105,6 +106,7 @@ TEST(LayeredCommand, FillsTheWhiteOfAPictureAndNothingElse) {
        {std::pair{"--inpaint none.png", "none.png: nothing is white"},
         {"--inpaint all.png", "all.png: all is white"},
         {"--inpaint narrow.png", "narrow.png: 40 x 40 pixels; e.png has 48 x 40 pixels"},
+        {"--inpaint e.png", "e.png: has colors; what is to be filled is said in black and white"},
         {"--inpaint hole.png --paint h.png", "give one of the two"}}) {
     const auto run = runExemplar(synth + arguments, folder.path());
     EXPECT_EQ(run.status, 2) << run.err;
@@ -138,6 +140,66 @@ TEST(LayeredCommand, RefusesLayerMapsThatAreNone) {
     EXPECT_EQ(run.status, 2) << run.err;
     EXPECT_THAT(run.err, HasSubstr(says));
   }
+}
+
+TEST(LayeredCommand, SaysWhichPicturesCannotBeLayered) {
+  const TestFolder folder;
+  writePictures(folder);
+  writePng(folder / "small.png",
+           Image8{5, 4, 1, std::vector<std::uint8_t>{0, 9, 0, 9, 0, 9, 0, 9, 0, 9,
+                                                     0, 9, 0, 9, 0, 9, 0, 9, 0, 9}});
+  writePng(folder / "narrow.png", Image8{40, 40, 1, std::vector<std::uint8_t>(40 * 40, 3)});
+  const std::string files = folder.files();
+  for (const auto& [arguments, says] :
+       {std::pair{"h.png --layers 3", "--layers 3: the example has 2 colors"},
+        {"small.png --layers 2", "the example is 4 cells wide, and patches of 5 cells"},
+        {"e.png --channel height=narrow.png", "narrow.png: 40 x 40 pixels, and e.png has 48 x 40"},
+        {"e.png --kind heights", "e.png is colored; heights are gray"},
+        {"e.png --layers 9", "--layers 9: expected 2 to 8"},
+        {"e.png --layers-from narrow.png", "narrow.png: 40 x 40 pixels; it must have the size of"},
+        {"h.png --layers-from none.png", "none.png"}}) {
+    SCOPED_TRACE(arguments);
+    const auto run = runExemplar("synth " + std::string(arguments) + " --engine layered -o o.png",
+                                 folder.path());
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(says));
+    // One line, after those of progress.
+    const std::size_t error = run.err.find("exemplar: ");
+    ASSERT_NE(error, std::string::npos);
+    EXPECT_EQ(run.err.find('\n', error), run.err.size() - 1) << run.err;
+    EXPECT_EQ(folder.files(), files);
+  }
+}
+
+TEST(LayeredCommand, DropsOpacityAndSaysSoAndKeepsSixteenBits) {
+  const TestFolder folder;
+  Image8 clear{40, 40, 4, {}}, opaque{40, 40, 3, {}};
+  Image<std::uint16_t> deep{40, 40, 1, {}};
+  for (int p = 0; p < 40 * 40; ++p) {
+    const bool disc = p % 40 / 8 % 2 != p / 40 / 8 % 2;
+    const auto at = static_cast<std::uint8_t>(p * 7 % 16);
+    for (const int c : {disc ? 200 : 30, 80 + at, 60}) {
+      opaque.pixels.push_back(static_cast<std::uint8_t>(c));
+      clear.pixels.push_back(static_cast<std::uint8_t>(c));
+    }
+    clear.pixels.push_back(static_cast<std::uint8_t>(100 + at));
+    deep.pixels.push_back(static_cast<std::uint16_t>((disc ? 40001 : 9002) + 3 * at));
+  }
+  writePng(folder / "clear.png", clear);
+  writePng(folder / "opaque.png", opaque);
+  writePng(folder / "deep.png", deep);
+  const std::string rest =
+      " --engine layered --layers 2 --neighborhood 5 --texture-rounds 1 --size 40,40,1 -o ";
+  const auto run = runExemplar("synth clear.png" + rest + "a.png", folder.path());
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("clear.png: opacity is not synthesized and was dropped"));
+  ASSERT_EQ(runExemplar("synth opaque.png" + rest + "b.png", folder.path()).status, 0);
+  EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "b.png"));
+  // Sixteen bits stay: every value is one of the example's.
+  ASSERT_EQ(runExemplar("synth deep.png --kind texture" + rest + "c.png", folder.path()).status, 0);
+  const std::set<std::uint16_t> known(deep.pixels.begin(), deep.pixels.end());
+  const auto made = decodePng16(readFile(folder / "c.png"), "c.png");
+  for (const std::uint16_t value : made.pixels) ASSERT_TRUE(known.contains(value)) << value;
 }
 
 TEST(LayeredCommand, MakesVolumesOfLabels) {

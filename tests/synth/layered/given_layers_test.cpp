@@ -68,6 +68,26 @@ TEST(SynthesizeLayers, FillsAHoleAndNothingElse) {
   EXPECT_EQ(skippingShare(made.map), 0);
 }
 
+TEST(SynthesizeLayers, GoesOnFromWhatLiesAroundAHole) {
+  const LayerVolume example = noiseLayers(200, 160, 2, 2);
+  std::int64_t beside = 0, alike = 0;
+  for (const Vec3i& corner : {Vec3i{30, 30, 0}, Vec3i{100, 40, 0}, Vec3i{60, 90, 0}}) {
+    const Shape hole = squareHole(example.size(), corner, 44);
+    LayerOptions options;
+    options.hole = &hole;
+    const LayerVolume made = synthesizeLayers(example, example.size(), options).map;
+    forEachEdgeCell(hole, true, false, [&](const Vec3i& p, std::size_t at) {
+      forEachBeside(hole.size(), false, p, at, [&](std::size_t other) {
+        if (hole.data()[other]) return;
+        ++beside;
+        alike += made.data()[at] == made.data()[other];
+      });
+    });
+  }
+  // Of two cells beside each other 95 % are of one layer in the example; of two at random half.
+  EXPECT_GT(static_cast<double>(alike), 0.85 * static_cast<double>(beside));
+}
+
 TEST(SynthesizeTexture, KeepsWhatLiesOutsideAHoleToTheBit) {
   const LayerVolume layers = noiseLayers(96, 96, 3, 2);
   const Map map = pictureOf(layers);

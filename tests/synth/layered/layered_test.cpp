@@ -9,6 +9,8 @@
 #include <numeric>
 #include <set>
 
+#include "core/cells.h"
+#include "core/disjoint_sets.h"
 #include "core/error.h"
 #include "maps/distance_transform.h"
 #include "measure/layers.h"
@@ -103,16 +105,59 @@ TEST(NearestPatches, AreThoseOfAFullSearch) {
   }
 }
 
+TEST(ForEachEdgeCell, AndComponentsAreThoseOfEveryPairOfCells) {
+  const Random random(7);
+  for (const Vec3i& size : {Vec3i{9, 7, 5}, Vec3i{12, 10, 1}, Vec3i{1, 6, 2}, Vec3i{2, 2, 2}}) {
+    Shape shape(size);
+    for (std::size_t p = 0; p < shape.count(); ++p) shape.data()[p] = random.uniform(p) < 0.5;
+    for (const bool wraps : {false, true}) {
+      std::vector<std::size_t> edges[2], found[2];
+      DisjointSets sets(shape.count());
+      std::size_t at = 0;
+      forEachCell(size, [&](const Vec3i& p) {
+        bool edge = false;
+        forEachBeside(size, wraps, p, at, [&](std::size_t other) {
+          edge |= shape.data()[other] != shape.data()[at];
+          if (shape.data()[other] == shape.data()[at])
+            sets.join(static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(other));
+        });
+        if (edge) edges[shape.data()[at]].push_back(at);
+        ++at;
+      });
+      std::vector<std::uint32_t> cells(shape.count()), sizes[2];
+      for (std::uint32_t p = 0; p < cells.size(); ++p) ++cells[sets.find(p)];
+      for (std::size_t p = 0; p < cells.size(); ++p)
+        if (cells[p] > 0) sizes[shape.data()[p]].push_back(cells[p]);
+      for (const bool inside : {false, true}) {
+        forEachEdgeCell(shape, inside, wraps, [&](const Vec3i& p, std::size_t index) {
+          EXPECT_EQ(shape.index(p), index);
+          found[inside].push_back(index);
+        });
+        EXPECT_EQ(found[inside], edges[inside]);
+        EXPECT_EQ(componentSizes(shape, inside, wraps), sizes[inside]);
+      }
+    }
+  }
+}
+
 TEST(RemoveSmall, TurnsOverWhatIsSmallAndNothingElse) {
   Shape shape(Vec3i{20, 20, 1});
   for (int y = 2; y < 8; ++y)
     for (int x = 2; x < 8; ++x) shape(x, y, 0) = 1;
   shape(4, 4, 0) = 0;    // a hole
   shape(15, 15, 0) = 1;  // a speck
-  removeSmall(shape, 5, 5, true);
+  removeSmall(shape, {.least = 5}, {.least = 5}, true);
   EXPECT_EQ(shape(4, 4, 0), 1);
   EXPECT_EQ(shape(15, 15, 0), 0);
   EXPECT_EQ(componentSizes(shape, true, true), (std::vector<std::uint32_t>{36}));
+  // The largest of more than may stay; those that are as large as the last stay with it.
+  shape(15, 15, 0) = shape(17, 11, 0) = shape(17, 12, 0) = shape(12, 3, 0) = 1;
+  Shape two = shape;
+  removeSmall(two, {.most = 2}, {}, true);
+  EXPECT_EQ(componentSizes(two, true, true), (std::vector<std::uint32_t>{36, 2}));
+  Shape three = shape;
+  removeSmall(three, {.most = 3}, {}, true);
+  EXPECT_EQ(three, shape);
 }
 
 // --- Assignment --------------------------------------------------------------------------------
@@ -258,6 +303,35 @@ TEST(SynthesizeLayers, ComesNearerToTheExampleThanItBegan) {
   EXPECT_LT(distance({}), 0.7 * distance(once));
 }
 
+TEST(OptimizeShape, ComesNearerOnEveryResolution) {
+  const Shape fine = layerShape(noiseLayers(256, 192, 2, 2), 2);
+  for (int factor = 1; factor <= 4; factor *= 2) {
+    Shape shape(Vec3i{256 / factor, 192 / factor, 1});
+    forEachCell(shape.size(), [&](const Vec3i& p) { shape[p] = fine[p * factor]; });
+    const ShapeExample example = shapeExample(shape, nullptr, nullptr, {}, Random(1));
+    // The mean distance of the boundary's patches to the patches that they are given.
+    const auto distance = [&](const Shape& of) {
+      const std::vector<Vec3i> boundary = boundaryOf(of, true);
+      const BoundaryPatches patches(of, boundary, 15, 1, true);
+      double sum = 0;
+      for (const BoundaryMatch& match :
+           assignPatches(patches, example.patches,
+                         fairUses(patches.count(), example.patches.count(), Random(2)),
+                         AssignmentKind::Greedy, Random(3)))
+        sum += match.distance;
+      return sum / static_cast<double>(patches.count());
+    };
+    // Noise: half of all squares of 4 x 4.
+    Shape start(shape.size());
+    const Random draws(5);
+    forEachCell(start.size(), [&](const Vec3i& p) {
+      start[p] = draws.uniform(static_cast<std::uint64_t>(p.y / 4 * 1000 + p.x / 4)) < 0.5;
+    });
+    const OptimizedShape made = optimizeShape(start, example, {}, {}, Random(6));
+    EXPECT_LT(distance(made.shape), 0.7 * distance(start)) << factor;
+  }
+}
+
 TEST(SynthesizeLayers, MakesDiscsOfDiscs) {
   const LayerVolume example = discs(200, 200, 10, 1);
   const SynthesizedLayers made = synthesizeLayers(example, {240, 240, 1}, {});
@@ -389,6 +463,32 @@ TEST(ControlMaps, StayWithinTheirLayer) {
       EXPECT_GE(control->data()[p], map->data()[p]);
       EXPECT_LE(control->data()[p], map->data()[p] + 1);
     }
+  }
+}
+
+TEST(ControlMaps, GoNoFartherThanTheExample) {
+  const auto steps = [](int second, int third) {
+    LayerVolume map(Vec3i{third + 10, 6, 1}, 1);
+    forEachCell(map.size(), [&](const Vec3i& p) {
+      if (p.x >= second) map[p] = p.x >= third ? 3 : 2;
+    });
+    return map;
+  };
+  // Layer 2 is 10 cells wide, and 60: there 6 from the lower layer, and more than 10 from the
+  // higher.
+  const ControlMaps maps = controlMaps(steps(20, 30), false, steps(20, 80), false);
+  EXPECT_NEAR(maps.result(25, 3, 0), 2 + 6.0 / 16, 1e-5);
+  EXPECT_NEAR(maps.example(25, 3, 0), 2 + 6.0 / 11, 1e-5);
+}
+
+TEST(ControlMaps, SoftenedStayInTheirLayers) {
+  const LayerVolume example = noiseLayers(80, 60, 4, 2), result = noiseLayers(90, 70, 4, 3);
+  const ControlMaps whole = controlMaps(example, false, result, true);
+  ControlMaps soft = whole;
+  soft.soften(0.25f);
+  for (std::size_t p = 0; p < result.count(); ++p) {
+    const float middle = static_cast<float>(result.data()[p]) + 0.5f;
+    EXPECT_NEAR(soft.result.data()[p], middle + 0.25f * (whole.result.data()[p] - middle), 1e-5);
   }
 }
 

@@ -63,6 +63,31 @@ TEST(LayersInSpace, KeepVolumesNestingAndLikeness) {
   }
 }
 
+TEST(LayersInSpace, ACrustStaysAtTheSurface) {
+  // Only the outermost two cells of the upper half of each ball.
+  LayerVolume example = balls(40, 7, 1);
+  for (std::uint8_t& k : example.values()) k = std::min<std::uint8_t>(k, 2);
+  const auto depthsOf = [](const LayerVolume& layers) {
+    Shape outside(layers.size());
+    for (std::size_t p = 0; p < layers.count(); ++p) outside.data()[p] = layers.data()[p] < 2;
+    return distanceTo(outside, true);
+  };
+  const Array3D<float> depths = depthsOf(example);
+  forEachCell(example.size(), [&](const Vec3i& p) {
+    const Vec3i up = example.clamped(p + Vec3i{0, 0, 2});
+    if (depths[p] > 0 && depths[p] <= 2 && example[up] == 1) example[p] = 3;
+  });
+  const LayerVolume made = synthesizeLayers(example, {40, 40, 40}, volumeOptions()).map;
+  const Array3D<float> madeDepths = depthsOf(made);
+  std::int64_t crust = 0;
+  for (std::size_t p = 0; p < made.count(); ++p) {
+    if (made.data()[p] != 3) continue;
+    ++crust;
+    ASSERT_LE(madeDepths.data()[p], 2) << p;
+  }
+  EXPECT_EQ(crust, insideOf(layerShape(example, 3)));
+}
+
 TEST(LayersInSpace, AreTheSameAtAnyNumberOfThreads) {
   const LayerVolume example = balls(28, 4, 2);
   const auto make = [&] { return synthesizeLayers(example, {32, 28, 24}, volumeOptions(3)).map; };
