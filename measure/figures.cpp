@@ -172,7 +172,8 @@ constexpr TerrainRow kTerrainRows[] = {
     {"relief", &TerrainFigures::relief, "highest less lowest"},
     {"largest_step", &TerrainFigures::largestStep, "between neighbors"},
     {"flat_share", &TerrainFigures::flatShare, "of the cells, with under 2 % of the mean slope"},
-    {"repeated_peaks", &TerrainFigures::repeatedPeaks, "share of peaks that occur twice"}};
+    {"repeated_peaks", &TerrainFigures::repeatedPeaks, "share of peaks that occur twice"},
+    {"repeated_shapes", &TerrainFigures::repeatedShapes, "of shapes that do, at any angle"}};
 
 std::string text(const Figure& figure) {
   char number[64];
@@ -299,6 +300,10 @@ std::vector<Figure> figures(const TerrainLikeness& t) {
   list.add("seam_step_ratio", t.seamStepRatio, "the largest across a seam; 1 or less is best");
   list.add("seam_mean_step_ratio", t.seamMeanStepRatio, "the mean across seams; 1 is best");
   list.add("verbatim_share", t.verbatimShare, "of windows that the example has; 0 is new");
+  list.add("copied_shapes", t.copiedShapes.result, "that the example has at any angle");
+  list.add("copied_shapes_floor", t.copiedShapes.floor, "of its one half in the other");
+  list.add("copied_layout", t.copiedLayout.result, "the same of mountains and main valleys");
+  list.add("copied_layout_floor", t.copiedLayout.floor, "of its one half in the other");
   return std::move(list.figures);
 }
 
@@ -324,6 +329,18 @@ std::string figuresTable(const TerrainLikeness& t) {
   rows.push_back({"seam_step_ratio", {}, {}, {}, t.seamStepRatio, "the largest across a seam"});
   rows.push_back({"seam_mean_step_ratio", {}, {}, {}, t.seamMeanStepRatio, "mean across seams"});
   rows.push_back({"verbatim_share", {}, {}, {}, t.verbatimShare, "windows that the example has"});
+  rows.push_back({"copied_shapes",
+                  {},
+                  {},
+                  t.copiedShapes.floor,
+                  t.copiedShapes.result,
+                  "shapes that the example has, at any angle"});
+  rows.push_back({"copied_layout",
+                  {},
+                  {},
+                  t.copiedLayout.floor,
+                  t.copiedLayout.result,
+                  "the same of mountains and main valleys"});
   std::size_t keys = 0;
   for (const Row& row : rows) keys = std::max(keys, row.key.size());
   constexpr std::size_t kColumn = 11;

@@ -17,6 +17,7 @@
 #include "measure/distribution.h"
 #include "measure/spectrum.h"
 #include "measure/terrain_copies.h"
+#include "measure/turned_copies.h"
 
 namespace exemplar {
 namespace {
@@ -27,6 +28,7 @@ constexpr int kLeastSpectrum = 32, kMostSpectrum = 512;
 constexpr double kSquareKilometer = 1e6;
 constexpr double kFlat = 0.02;  ///< of the mean slope
 constexpr std::size_t kRowsAtOnce = 32;
+constexpr std::size_t kShapes = 400, kShapesAmong = 1000;
 
 void check(const Grid<float>& heights, const TerrainOptions& options) {
   if (!(options.cellSize > 0 && std::isfinite(options.cellSize)))
@@ -244,6 +246,13 @@ std::optional<Halves> halvesOf(const Grid<float>& heights) {
   return Halves{window(heights, 0, 0, width, half), window(heights, 0, height - half, width, half)};
 }
 
+/// The share of a map's shapes that another one has, both on a coarser resolution.
+std::optional<double> copiedShare(const Grid<float>& of, const Grid<float>& in, int halvings,
+                                  const Progress& progress) {
+  return TerrainShapes(layoutOf(of, halvings), kShapes)
+      .foundIn(TerrainShapes(layoutOf(in, halvings), kShapesAmong), progress);
+}
+
 }  // namespace
 
 TerrainFigures terrainFigures(const Grid<float>& heights, const TerrainOptions& options,
@@ -266,7 +275,8 @@ TerrainFigures terrainFigures(const Grid<float>& heights, const TerrainOptions& 
     figures.spectrumSlope = spectrumSlope(heights, spectrumSide, progress.part(0.8, 0.9));
   figures.largestStep = stepsOf(heights, nullptr).largest;
   figures.flatShare = flatShareOf(heights);
-  figures.repeatedPeaks = repeatedPeaks(heights, progress.part(0.9, 1));
+  figures.repeatedPeaks = repeatedPeaks(heights, progress.part(0.9, 0.95));
+  figures.repeatedShapes = TerrainShapes(heights, kShapes).repeated(progress.part(0.95, 1));
   return figures;
 }
 
@@ -304,7 +314,16 @@ TerrainLikeness measureTerrain(const Grid<float>& example, const Grid<float>& re
     likeness.curvature.floor = distanceOf(a.curvature, b.curvature, curvature);
   }
   progress.report("looking for copies", 0.7);
-  likeness.verbatimShare = verbatimShare(example, result, progress.part(0.7, 1));
+  likeness.verbatimShare = verbatimShare(example, result, progress.part(0.7, 0.9));
+  const int layout = layoutHalvings(example);
+  likeness.copiedShapes.result = copiedShare(result, example, 0, progress.part(0.9, 0.95));
+  likeness.copiedLayout.result = copiedShare(result, example, layout, progress.part(0.95, 0.96));
+  if (halves) {
+    likeness.copiedShapes.floor =
+        copiedShare(halves->second, halves->first, 0, progress.part(0.96, 0.99));
+    likeness.copiedLayout.floor =
+        copiedShare(halves->second, halves->first, layout, progress.part(0.99, 1));
+  }
   const Steps ofExample = stepsOf(example, nullptr), ofResult = stepsOf(result, nullptr);
   if (ofExample.largest > 0) {
     likeness.stepRatio = ofResult.largest / ofExample.largest;

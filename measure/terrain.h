@@ -45,6 +45,9 @@ struct TerrainFigures {
   /// hollows that were filled up have.
   std::optional<double> flatShare;
   std::optional<double> repeatedPeaks;  ///< `repeatedPeaks`
+  /// Of the 400 strongest shapes, the share that occurs at another one at any angle
+  /// (`TerrainShapes`).
+  std::optional<double> repeatedShapes;
 };
 
 /// Measures one map. `spectrumSide` is the side of the spectrum's windows (a power of two; 0: as
@@ -65,16 +68,23 @@ struct TerrainLikeness {
   /// (under 64 cells).
   TerrainFigures firstHalf, secondHalf;
 
-  /// Earth mover's distances to the example's distribution, in standard deviations of that; 0 is
-  /// best. The floor is the distance of the example's halves.
+  /// Of the result to the example; the floor is that of the example's halves.
   struct Distance {
     std::optional<double> result, floor;
   };
+  /// Earth mover's distances to the example's distribution, in standard deviations of that; 0 is
+  /// best.
   Distance heights;
   Distance slopes;     ///< of the rise for each length, by central differences
   Distance curvature;  ///< of the second difference, hollows positive
 
   std::optional<double> verbatimShare;  ///< `verbatimShare`
+  /// Of the result's 400 strongest shapes, the share that occurs among the example's 1,000 at any
+  /// angle; the floor is the share of those of its one half in the other.
+  Distance copiedShapes;
+  /// The same on the resolution on which the example has 40 to 79 cells along its smaller side:
+  /// whether its mountains and main valleys come again.
+  Distance copiedLayout;
   /// The largest step of the result over the example's.
   std::optional<double> stepRatio;
   /// Where seams are known: the largest and the mean step across them over the example's.

@@ -27,11 +27,13 @@ constexpr double kGentlest = 0.02;
 /// What a patch counts at each of its rows and columns.
 constexpr std::array<float, kSide> kKernel{1, 3, 5, 7, 7, 5, 3, 1};
 
-/// For each symmetry: which sample of the result's patch each sample of the example's becomes, and
-/// back.
+/// For each symmetry: which sample of the result's patch each sample of the example's becomes.
 struct TurnTables {
-  std::array<std::array<std::uint8_t, kSamples>, 8> toResult{}, toExample{};
+  std::array<std::array<std::uint8_t, kSamples>, 8> toResult{};
+  std::array<Pixel, 8> first{};                ///< the sample that the result's first one is
   std::array<std::array<Pixel, 2>, 8> back{};  ///< what steps along x and y are in the example
+  /// For each quarter of the example's patch, the quarter of the result's.
+  std::array<std::array<std::uint8_t, 4>, 8> quarter{};
 
   TurnTables() {
     for (int turn = 0; turn < 8; ++turn) {
@@ -41,19 +43,20 @@ struct TurnTables {
         for (int i = 0; i < kSide; ++i) {
           const Pixel p = turnedStep({2 * i - kSide + 1, 2 * j - kSide + 1}, turnedBackBy(turn));
           const int u = (p.x + kSide - 1) / 2, v = (p.y + kSide - 1) / 2;
-          toExample[t][static_cast<std::size_t>(j * kSide + i)] =
-              static_cast<std::uint8_t>(v * kSide + u);
+          if (i == 0 && j == 0) first[t] = {u, v};
           toResult[t][static_cast<std::size_t>(v * kSide + u)] =
               static_cast<std::uint8_t>(j * kSide + i);
         }
       }
+      for (std::size_t n = 0; n < 4; ++n) {
+        const int k = toResult[t][(n / 2) * (kSide - 1) * kSide + (n % 2) * (kSide - 1)];
+        quarter[t][n] =
+            static_cast<std::uint8_t>(2 * (k / kSide / (kSide / 2)) + k % kSide / (kSide / 2));
+      }
     }
   }
 };
-const TurnTables& tables() {
-  static const TurnTables made;
-  return made;
-}
+const TurnTables kTables;
 
 /// The sum of the differences of two patches, of their squares, and of the squares of their
 /// differences' steps.
@@ -113,22 +116,89 @@ std::vector<int> placesAlong(int size, int stride, bool wraps) {
   return places;
 }
 
-/// The patches over a sample, along one axis: the first that begins less than a side before it.
+/// The patches over each sample, along one axis: the first that begins less than a side before it
+/// (below 0 where that is one at the other end), and how many there are.
 struct Over {
   int first, count;
 };
-Over patchesOver(int at, int size, const std::vector<int>& places, bool wraps) {
+std::vector<Over> patchesOver(int size, const std::vector<int>& places, bool wraps) {
   const int count = static_cast<int>(places.size());
-  const int last = static_cast<int>(std::ranges::upper_bound(places, at) - places.begin()) - 1;
-  int first = last;
   const auto begins = [&](int n) {
     return n >= 0 ? places[static_cast<std::size_t>(n)]
                   : places[static_cast<std::size_t>(n + count)] - size;
   };
-  while ((wraps || first > 0) && last - first + 1 < count && begins(first - 1) > at - kSide)
-    --first;
-  return {first, last - first + 1};
+  std::vector<Over> over(static_cast<std::size_t>(size));
+  for (int at = 0; at < size; ++at) {
+    const int last = static_cast<int>(std::ranges::upper_bound(places, at) - places.begin()) - 1;
+    int first = last;
+    while ((wraps || first > 0) && last - first + 1 < count && begins(first - 1) > at - kSide)
+      --first;
+    over[static_cast<std::size_t>(at)] = {first, last - first + 1};
+  }
+  return over;
 }
+
+/// What all patches over each sample count, along one axis.
+std::vector<float> kernelSums(int size, const std::vector<int>& places) {
+  std::vector<float> sums(static_cast<std::size_t>(size));
+  for (const int place : places)
+    for (std::size_t n = 0; n < kSide; ++n)
+      sums[(static_cast<std::size_t>(place) + n) % sums.size()] += kKernel[n];
+  return sums;
+}
+
+/// Adds a row of a patch to a row of votes.
+EXEMPLAR_MULTIVERSION
+void addRow(const float* from, std::ptrdiff_t step, float lift, float weight, float* to) {
+  float row[kSide];
+  if (step == 1) {
+    for (int i = 0; i < kSide; ++i) row[i] = from[i];
+  } else {
+    for (int i = 0; i < kSide; ++i) row[i] = from[i * step];
+  }
+  for (int i = 0; i < kSide; ++i)
+    to[i] += weight * kKernel[static_cast<std::size_t>(i)] * (row[i] + lift);
+}
+
+/// `HeightSource::blocks`.
+void findBlocks(HeightSource& source) {
+  constexpr int kBlock = kSide / 2;
+  const Grid<float>& h = source.heights;
+  source.blocks = Grid<float>(h.width(), h.height());
+  const int rows = std::max(0, h.height() - kBlock + 1);
+  parallelFor(0, static_cast<std::size_t>(rows), 16, [&](std::size_t y0, std::size_t y1) {
+    std::vector<float> sums(static_cast<std::size_t>(h.width()));
+    for (std::size_t r = y0; r < y1; ++r) {
+      const int y = static_cast<int>(r);
+      std::ranges::fill(sums, 0.0f);
+      for (int v = 0; v < kBlock; ++v)
+        for (int x = 0; x < h.width(); ++x) sums[static_cast<std::size_t>(x)] += h(x, y + v);
+      for (std::size_t x = 0; x + kBlock <= sums.size(); ++x) {
+        source.blocks(static_cast<int>(x), y) =
+            (sums[x] + sums[x + 1] + sums[x + 2] + sums[x + 3]) / (kBlock * kBlock);
+      }
+    }
+  });
+}
+
+/// What the differences of the four blocks of two patches are sure to cost. Over each row, the
+/// difference between its halves' means is a sum of its seven steps, weighted by 1, 2, 3, 4, 3, 2,
+/// 1 quarters, whose squares sum to 2.75 (Cauchy and Schwarz); the same over each column.
+float leastCost(const std::array<float, 4>& d, float level, float slopes) {
+  const float mean = (d[0] + d[1] + d[2] + d[3]) / 4;
+  float squares = 0;
+  for (const float v : d) squares += (v - mean) * (v - mean);
+  const float a = d[1] - d[0], b = d[3] - d[2], c = d[2] - d[0], e = d[3] - d[1];
+  const float steps = (a * a + b * b + c * c + e * e) * (kSide / 2) / 2.75f;
+  return kSamples / 4 * squares + level * kSamples * mean * mean + slopes * steps;
+}
+
+/// Where a patch would come from at sample (0, 0).
+struct Begin {
+  int x, y;
+  std::uint8_t example, turn;
+  bool operator==(const Begin&) const = default;
+};
 
 /// `HeightSource::weights`, relative to the mean patch.
 void weigh(HeightSource& source) {
@@ -156,41 +226,72 @@ void weigh(HeightSource& source) {
 
 }  // namespace
 
-void takeQuery(const Grid<float>& heights, Pixel at, std::span<const int> turns,
-               HeightQuery& query) {
+void HeightQuery::take(const Grid<float>& heights, Pixel at) {
   const bool inside =
       at.x >= 0 && at.y >= 0 && at.x + kSide <= heights.width() && at.y + kSide <= heights.height();
-  float plain[kSamples];
+  float* plain = heights_[0].data();
   for (int j = 0; j < kSide; ++j) {
     for (int i = 0; i < kSide; ++i) {
       plain[j * kSide + i] =
           heights[inside ? heights.index(at.x + i, at.y + j) : heights.wrapped(at.x + i, at.y + j)];
     }
   }
-  for (const int turn : turns) {
-    const auto& order = tables().toResult[static_cast<std::size_t>(turn)];
-    for (std::size_t k = 0; k < kSamples; ++k) query.heights[turn][k] = plain[order[k]];
+  turned_ = 1;
+  constexpr int kBlock = kSide / 2;
+  for (int n = 0; n < 4; ++n) {
+    float sum = 0;
+    const float* first = plain + (n / 2) * kBlock * kSide + (n % 2) * kBlock;
+    for (int v = 0; v < kBlock; ++v)
+      for (int u = 0; u < kBlock; ++u) sum += first[v * kSide + u];
+    blocks_[static_cast<std::size_t>(n)] = sum / (kBlock * kBlock);
   }
 }
 
-double shapeCost(const HeightSource& source, const HeightQuery& query, const HeightMatch& match,
-                 double level, double slopes) {
+const float* HeightQuery::turned(int turn) {
+  const auto t = static_cast<std::size_t>(turn);
+  if (!(turned_ >> turn & 1)) {
+    const auto& order = kTables.toResult[t];
+    for (std::size_t k = 0; k < kSamples; ++k) heights_[t][k] = heights_[0][order[k]];
+    turned_ |= 1u << turn;
+  }
+  return heights_[t].data();
+}
+
+void HeightQuery::turn(std::span<const int> turns) {
+  for (const int turn : turns) turned(turn);
+}
+
+float HeightQuery::cost(const HeightSource& source, const HeightMatch& match, float level,
+                        float slopes, float most) {
+  constexpr int kBlock = kSide / 2;
+  /// Rounding must not make a bound of what is equal.
+  constexpr float kSure = 0.99f;
   const std::size_t at = source.heights.index(match.x, match.y);
+  const float weight = source.weights[at];
+  const auto& quarter = kTables.quarter[match.turn];
+  const auto down =
+      static_cast<std::size_t>(kBlock) * static_cast<std::size_t>(source.blocks.width());
+  const std::array<float, 4> differences{blocks_[quarter[0]] - source.blocks[at],
+                                         blocks_[quarter[1]] - source.blocks[at + kBlock],
+                                         blocks_[quarter[2]] - source.blocks[at + down],
+                                         blocks_[quarter[3]] - source.blocks[at + down + kBlock]};
+  if (kSure * leastCost(differences, level, slopes) * weight > most)
+    return std::numeric_limits<float>::infinity();
   Sums sums;
-  sumDifferences(query.heights[match.turn], &source.heights[at], source.heights.width(), sums);
-  const double ofMean = static_cast<double>(sums.difference) * sums.difference / kSamples;
-  return (std::max(0.0, sums.squares - ofMean) + level * ofMean + slopes * sums.steps) *
-         source.weights[at];
+  sumDifferences(turned(match.turn), &source.heights[at], source.heights.width(), sums);
+  const float ofMean = sums.difference * sums.difference / kSamples;
+  return (std::max(0.0f, sums.squares - ofMean) + level * ofMean + slopes * sums.steps) * weight;
 }
 
 HeightOrigin originOfFirst(const HeightMatch& match) {
-  const int k = tables().toExample[match.turn][0];
-  return {static_cast<std::int16_t>(match.x + k % kSide),
-          static_cast<std::int16_t>(match.y + k / kSide), match.example, match.turn};
+  const Pixel first = kTables.first[match.turn];
+  return {static_cast<std::int16_t>(match.x + first.x),
+          static_cast<std::int16_t>(match.y + first.y), match.example, match.turn};
 }
 
 HeightSource heightSource(Grid<float> heights) {
-  HeightSource source{std::move(heights), {}, {}, 0};
+  HeightSource source;
+  source.heights = std::move(heights);
   const int width = source.heights.width(), height = source.heights.height();
   source.whole = Grid<std::uint8_t>(width, height);
   // The number of good samples to the left of and above each.
@@ -210,6 +311,7 @@ HeightSource heightSource(Grid<float> heights) {
     }
   }
   weigh(source);
+  findBlocks(source);
   return source;
 }
 
@@ -223,21 +325,20 @@ HeightField::HeightField(int width, int height, const HeightMatching& matching)
   assert(width >= kSide && height >= kSide);
 }
 
-double HeightField::costOf(const HeightSource& source, const HeightQuery& query,
-                           const HeightMatch& match) const {
-  const double cost = shapeCost(source, query, match, matching_.level, matching_.slopes);
-  if (uses_.empty()) return cost;
-  const Grid<float>& uses = uses_[match.example];
-  const float use = uses((match.x + kSide / 2) / kUseBlock, (match.y + kSide / 2) / kUseBlock);
-  return cost * (1 + matching_.evenness * std::max(0.0f, use - 1));
-}
-
-bool HeightField::consider(std::span<const HeightSource> sources, const HeightQuery& query,
+bool HeightField::consider(std::span<const HeightSource> sources, HeightQuery& query,
                            const HeightMatch& candidate, HeightMatch& best) const {
   const HeightSource& source = sources[candidate.example];
   if (!source.whole.contains(candidate.x, candidate.y) || !source.whole(candidate.x, candidate.y))
     return false;
-  const auto cost = static_cast<float>(costOf(source, query, candidate));
+  float used = 1;
+  if (!uses_.empty()) {
+    const Grid<float>& uses = uses_[candidate.example];
+    const float use =
+        uses((candidate.x + kSide / 2) / kUseBlock, (candidate.y + kSide / 2) / kUseBlock);
+    used += static_cast<float>(matching_.evenness) * std::max(0.0f, use - 1);
+  }
+  const float cost = used * query.cost(source, candidate, static_cast<float>(matching_.level),
+                                       static_cast<float>(matching_.slopes), best.cost / used);
   if (!(cost < best.cost)) return false;
   best = candidate;
   best.cost = cost;
@@ -271,7 +372,7 @@ void HeightField::search(std::span<const HeightSource> sources, const Grid<float
       progress.check();
       const int row = static_cast<int>(r);
       for (int column = 0; column < columns(); ++column) {
-        takeQuery(heights, place(column, row), matching_.turns, query);
+        query.take(heights, place(column, row));
         HeightMatch best = before(column, row);
         best.cost = std::numeric_limits<float>::infinity();
         consider(sources, query, before(column, row), best);
@@ -291,7 +392,7 @@ void HeightField::search(std::span<const HeightSource> sources, const Grid<float
           HeightMatch near = before(c, n);
           const Pixel there = place(c, n);
           if (!reaches(near, best, here)) continue;
-          const auto& back = tables().back[near.turn];
+          const auto& back = kTables.back[near.turn];
           const int dx = here.x - there.x - offset.x, dy = here.y - there.y - offset.y;
           near.x = static_cast<std::int16_t>(near.x + back[0].x * dx + back[1].x * dy);
           near.y = static_cast<std::int16_t>(near.y + back[0].y * dx + back[1].y * dy);
@@ -302,26 +403,26 @@ void HeightField::search(std::span<const HeightSource> sources, const Grid<float
         }
         const std::uint64_t cell = matches_.index(column, row);
         for (int n = 0; n < tries; ++n) {
-          const auto draw = static_cast<std::uint32_t>(4 * n);
+          const std::uint64_t bits = random.bits(cell, static_cast<std::uint32_t>(n));
+          const auto pick = [&](int part, std::size_t count) {
+            return static_cast<int>((bits >> (16 * part) & 0xffff) * count >> 16);
+          };
           HeightMatch other = best;
           if (n == 0) {
             // Anywhere, in any orientation.
-            other.example = static_cast<std::uint8_t>(
-                random.below(static_cast<std::uint32_t>(sources.size()), cell, draw));
+            other.example = static_cast<std::uint8_t>(pick(0, sources.size()));
             const Grid<float>& from = sources[other.example].heights;
-            other.turn = static_cast<std::uint8_t>(matching_.turns[random.below(
-                static_cast<std::uint32_t>(matching_.turns.size()), cell, draw + 1)]);
+            other.turn = static_cast<std::uint8_t>(
+                matching_.turns[static_cast<std::size_t>(pick(1, matching_.turns.size()))]);
             other.x = static_cast<std::int16_t>(
-                random.below(static_cast<std::uint32_t>(from.width() - kSide + 1), cell, draw + 2));
-            other.y = static_cast<std::int16_t>(random.below(
-                static_cast<std::uint32_t>(from.height() - kSide + 1), cell, draw + 3));
+                pick(2, static_cast<std::size_t>(from.width() - kSide + 1)));
+            other.y = static_cast<std::int16_t>(
+                pick(3, static_cast<std::size_t>(from.height() - kSide + 1)));
           } else {
             const int radius = std::max(1, 16 >> (n - 1));
-            const auto span = static_cast<std::uint32_t>(2 * radius + 1);
-            other.x = static_cast<std::int16_t>(other.x - radius +
-                                                static_cast<int>(random.below(span, cell, draw)));
-            other.y = static_cast<std::int16_t>(
-                other.y - radius + static_cast<int>(random.below(span, cell, draw + 1)));
+            const auto span = static_cast<std::size_t>(2 * radius + 1);
+            other.x = static_cast<std::int16_t>(other.x - radius + pick(0, span));
+            other.y = static_cast<std::int16_t>(other.y - radius + pick(1, span));
           }
           consider(sources, query, other, best);
         }
@@ -362,9 +463,12 @@ void HeightField::searchAll(std::span<const HeightSource> sources, const Grid<fl
     const int column = static_cast<int>(at % static_cast<std::size_t>(columns()));
     const int row = static_cast<int>(at / static_cast<std::size_t>(columns()));
     addUse(matches_[at], -1);
-    takeQuery(heights, place(column, row), matching_.turns, query);
+    query.take(heights, place(column, row));
+    query.turn(matching_.turns);
     HeightMatch best;
     best.cost = std::numeric_limits<float>::infinity();
+    // What there is says what is worth comparing.
+    consider(sources, query, HeightMatch(matches_[at]), best);
     for (std::size_t e = 0; e < sources.size(); ++e) {
       const Grid<std::uint8_t>& whole = sources[e].whole;
       rows.assign(static_cast<std::size_t>(whole.height() - kSide + 1), best);
@@ -388,24 +492,6 @@ void HeightField::searchAll(std::span<const HeightSource> sources, const Grid<fl
   }
 }
 
-/// Calls `body(column, row, i, j)` for each patch over a sample, which is sample (i, j) of it.
-template <class Body>
-void HeightField::forPatchesOver(int x, int y, const Body& body) const {
-  const Over across = patchesOver(x, width_, xs_, matching_.wrapsX);
-  const Over down = patchesOver(y, height_, ys_, matching_.wrapsY);
-  for (int r = down.first; r < down.first + down.count; ++r) {
-    const int row = r < 0 ? r + rows() : r;
-    int j = y - ys_[static_cast<std::size_t>(row)];
-    if (j < 0) j += height_;
-    for (int c = across.first; c < across.first + across.count; ++c) {
-      const int column = c < 0 ? c + columns() : c;
-      int i = x - xs_[static_cast<std::size_t>(column)];
-      if (i < 0) i += width_;
-      body(column, row, i, j);
-    }
-  }
-}
-
 Grid<float> HeightField::vote(std::span<const HeightSource> sources, const Grid<float>& heights,
                               const Progress& progress) const {
   // How much higher each patch lies in the result; as far as levels count it is drawn to its own.
@@ -425,59 +511,105 @@ Grid<float> HeightField::vote(std::span<const HeightSource> sources, const Grid<
       }
     }
   });
+  const std::vector<float> across = kernelSums(width_, xs_), down = kernelSums(height_, ys_);
   Grid<float> voted(width_, height_);
-  parallelFor(0, static_cast<std::size_t>(height_), 8, [&](std::size_t y0, std::size_t y1) {
-    for (std::size_t y = y0; y < y1; ++y) {
-      progress.check();
-      for (int x = 0; x < width_; ++x) {
-        float sum = 0, weights = 0;
-        forPatchesOver(x, static_cast<int>(y), [&](int column, int row, int i, int j) {
+  // Bands of rows: each sample sums up its patches in the order of their rows and columns.
+  parallelFor(0, static_cast<std::size_t>(height_), 32, [&](std::size_t y0, std::size_t y1) {
+    progress.check();
+    const auto inBand = [&](int y) {
+      return static_cast<std::size_t>(y) >= y0 && static_cast<std::size_t>(y) < y1;
+    };
+    for (int row = 0; row < rows(); ++row) {
+      const int top = ys_[static_cast<std::size_t>(row)];
+      for (int j = 0; j < kSide; ++j) {
+        const int y = top + j < height_ ? top + j : top + j - height_;
+        if (!inBand(y)) continue;
+        const float weight = kKernel[static_cast<std::size_t>(j)];
+        for (int column = 0; column < columns(); ++column) {
           const HeightMatch& match = matches_(column, row);
           const Grid<float>& from = sources[match.example].heights;
-          const int k = tables().toExample[match.turn][static_cast<std::size_t>(j * kSide + i)];
-          const float weight =
-              kKernel[static_cast<std::size_t>(i)] * kKernel[static_cast<std::size_t>(j)];
-          sum += weight *
-                 (from[from.index(match.x + k % kSide, match.y + k / kSide)] + lift(column, row));
-          weights += weight;
-        });
-        voted(x, static_cast<int>(y)) = sum / weights;
+          const auto& back = kTables.back[match.turn];
+          const Pixel first = kTables.first[match.turn];
+          const float* begin =
+              &from(match.x + first.x + j * back[1].x, match.y + first.y + j * back[1].y);
+          const std::ptrdiff_t step = back[0].x + std::ptrdiff_t{back[0].y} * from.width();
+          const int x = xs_[static_cast<std::size_t>(column)];
+          if (x + kSide <= width_) {
+            addRow(begin, step, lift(column, row), weight, &voted(x, y));
+            continue;
+          }
+          std::array<float, kSide> votes{};
+          addRow(begin, step, lift(column, row), weight, votes.data());
+          for (int i = 0; i < kSide; ++i)
+            voted((x + i) % width_, y) += votes[static_cast<std::size_t>(i)];
+        }
       }
+    }
+    for (std::size_t y = y0; y < y1; ++y) {
+      for (int x = 0; x < width_; ++x)
+        voted(x, static_cast<int>(y)) /= across[static_cast<std::size_t>(x)] * down[y];
     }
   });
   return voted;
 }
 
 Grid<HeightOrigin> HeightField::origins(const Progress& progress) const {
+  // What the sample (0, 0) would come from if each patch went on to there: patches agree on all
+  // samples or on none. Patches that go over an end also go on from beyond it.
+  const auto beginOf = [&](int column, int row, Pixel offset) {
+    const Pixel at = place(column, row);
+    const HeightOrigin first = originOfFirst(matches_(column, row));
+    const auto& back = kTables.back[first.turn];
+    const int dx = at.x - offset.x, dy = at.y - offset.y;
+    return Begin{first.x - back[0].x * dx - back[1].x * dy,
+                 first.y - back[0].y * dx - back[1].y * dy, first.example, first.turn};
+  };
+  Grid<Begin> begins(columns(), rows());
+  parallelFor(0, static_cast<std::size_t>(rows()), 8, [&](std::size_t r0, std::size_t r1) {
+    for (std::size_t r = r0; r < r1; ++r)
+      for (int column = 0; column < columns(); ++column)
+        begins(column, static_cast<int>(r)) = beginOf(column, static_cast<int>(r), {0, 0});
+  });
+  const std::vector<Over> across = patchesOver(width_, xs_, matching_.wrapsX);
+  const std::vector<Over> down = patchesOver(height_, ys_, matching_.wrapsY);
   Grid<HeightOrigin> origins(width_, height_);
   parallelFor(0, static_cast<std::size_t>(height_), 8, [&](std::size_t y0, std::size_t y1) {
-    HeightOrigin found[kSamples];
+    Begin found[kSamples];
     float weights[kSamples];
     for (std::size_t y = y0; y < y1; ++y) {
       progress.check();
       for (int x = 0; x < width_; ++x) {
+        const Over overX = across[static_cast<std::size_t>(x)], overY = down[y];
         int count = 0;
-        forPatchesOver(x, static_cast<int>(y), [&](int column, int row, int i, int j) {
-          const HeightMatch& match = matches_(column, row);
-          const int k = tables().toExample[match.turn][static_cast<std::size_t>(j * kSide + i)];
-          const HeightOrigin origin{static_cast<std::int16_t>(match.x + k % kSide),
-                                    static_cast<std::int16_t>(match.y + k / kSide), match.example,
-                                    match.turn};
-          const float weight =
-              kKernel[static_cast<std::size_t>(i)] * kKernel[static_cast<std::size_t>(j)];
-          for (int n = 0; n < count; ++n) {
-            if (found[n] == origin) {
-              weights[n] += weight;
-              return;
+        for (int r = overY.first; r < overY.first + overY.count; ++r) {
+          const int row = r < 0 ? r + rows() : r;
+          const int top = ys_[static_cast<std::size_t>(row)] - (r < 0 ? height_ : 0);
+          const float weight = kKernel[y - static_cast<std::size_t>(top)];
+          for (int c = overX.first; c < overX.first + overX.count; ++c) {
+            const int column = c < 0 ? c + columns() : c;
+            const int left = xs_[static_cast<std::size_t>(column)] - (c < 0 ? width_ : 0);
+            const Begin begin =
+                r >= 0 && c >= 0 ? begins(column, row)
+                                 : beginOf(column, row, {c < 0 ? width_ : 0, r < 0 ? height_ : 0});
+            const float own = weight * kKernel[static_cast<std::size_t>(x - left)];
+            int n = 0;
+            while (n < count && !(found[n] == begin)) ++n;
+            if (n == count) {
+              found[count] = begin;
+              weights[count++] = 0;
             }
+            weights[n] += own;
           }
-          found[count] = origin;
-          weights[count++] = weight;
-        });
+        }
         int best = 0;
         for (int n = 1; n < count; ++n)
           if (weights[n] > weights[best]) best = n;
-        origins(x, static_cast<int>(y)) = found[best];
+        const Begin& begin = found[best];
+        const auto& back = kTables.back[begin.turn];
+        const int row = static_cast<int>(y);
+        origins(x, row) = {static_cast<std::int16_t>(begin.x + back[0].x * x + back[1].x * row),
+                           static_cast<std::int16_t>(begin.y + back[0].y * x + back[1].y * row),
+                           begin.example, begin.turn};
       }
     }
   });

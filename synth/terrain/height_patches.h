@@ -30,9 +30,12 @@ struct HeightSource {
   /// squares alone prefer patches that are gentler than what they stand for, and from resolution to
   /// resolution land would become flat.
   Grid<float> weights;
+  /// The mean of the 4 x 4 samples of which this is the first (top left): a patch is four of them,
+  /// and costs at least what these differ by.
+  Grid<float> blocks;
   std::size_t places = 0;  ///< how many patches are whole
 };
-/// A resolution, with `whole` found.
+/// A resolution, with all else found.
 HeightSource heightSource(Grid<float> heights);
 
 /// Where a patch of the result comes from: the first (top left) sample of the example's patch.
@@ -45,19 +48,28 @@ struct HeightMatch {
 /// What the result's first (top left) sample of the patch comes from.
 HeightOrigin originOfFirst(const HeightMatch& match);
 
-/// A patch of the result, in the examples' orientations.
-struct HeightQuery {
-  alignas(32) float heights[8][kHeightPatch * kHeightPatch];
+/// A patch of the result, in the examples' orientations: what is compared with their patches.
+class HeightQuery {
+ public:
+  /// Takes the patch whose first sample is `at`; past an end it goes on at the other.
+  void take(const Grid<float>& heights, Pixel at);
+  /// Turns it, so that several threads may compare it in these orientations.
+  void turn(std::span<const int> turns);
+
+  /// What it costs to take `match`: how little it has the query's shape. The sum of the squares of
+  /// their differences without the mean difference, `level` times what that takes away, and
+  /// `slopes` times the squares of the differences' steps; all times the match's weight. Where that
+  /// is sure to exceed `most`, infinity.
+  float cost(const HeightSource& source, const HeightMatch& match, float level, float slopes,
+             float most);
+
+ private:
+  const float* turned(int turn);
+
+  alignas(32) std::array<std::array<float, kHeightPatch * kHeightPatch>, 8> heights_;
+  std::array<float, 4> blocks_;  // means, as `HeightSource::blocks`
+  unsigned turned_ = 0;          // bit t: `heights_[t]` is there
 };
-/// Takes the patch whose first sample is `at`, for some orientations; past an end it goes on at the
-/// other.
-void takeQuery(const Grid<float>& heights, Pixel at, std::span<const int> turns,
-               HeightQuery& query);
-/// How little a patch of an example has the shape of one of the result: the sum of the squares of
-/// their differences without the mean difference, `level` times what that takes away, and `slopes`
-/// times the squares of the differences' steps; all times the patch's weight.
-double shapeCost(const HeightSource& source, const HeightQuery& query, const HeightMatch& match,
-                 double level, double slopes);
 
 struct HeightPieces;
 
@@ -110,14 +122,9 @@ class HeightField {
  private:
   void countUses(std::span<const HeightSource> sources);
   void addUse(const HeightMatch& match, float by);
-  double costOf(const HeightSource& source, const HeightQuery& query,
-                const HeightMatch& match) const;
-  bool consider(std::span<const HeightSource> sources, const HeightQuery& query,
+  bool consider(std::span<const HeightSource> sources, HeightQuery& query,
                 const HeightMatch& candidate, HeightMatch& best) const;
   bool reaches(const HeightMatch& from, const HeightMatch& own, Pixel at) const;
-  template <class Body>
-  void forPatchesOver(int x, int y, const Body& body) const;
-
   int width_, height_;
   HeightMatching matching_;
   std::vector<int> xs_, ys_;

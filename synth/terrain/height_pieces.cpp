@@ -47,14 +47,14 @@ class Chooser {
   void choose(std::uint32_t piece) {
     const Pixel first = windowOf(piece);
     HeightQuery query;
-    takeQuery(heights_, first, options_.turns, query);
+    query.take(heights_, first);
     const std::vector<HeightOrigin> taken = continuations(piece, first);
     std::array<HeightMatch, kBettered> best;
     for (HeightMatch& match : best) match.cost = std::numeric_limits<float>::infinity();
     for (int n = 0; n < options_.tries; ++n) {
       HeightMatch match = anywhere(piece, static_cast<std::uint32_t>(4 * n));
       if (!fits(match)) continue;
-      match.cost = costOf(query, match);
+      match.cost = costOf(query, match, best.back().cost);
       if (!(match.cost < best.back().cost) || isTaken(match, taken)) continue;
       std::size_t at = best.size() - 1;
       for (; at > 0 && match.cost < best[at - 1].cost; --at) best[at] = best[at - 1];
@@ -118,12 +118,12 @@ class Chooser {
     return whole.contains(match.x, match.y) && whole(match.x, match.y);
   }
 
-  float costOf(const HeightQuery& query, const HeightMatch& match) const {
-    return static_cast<float>(
-        shapeCost(coarse_[match.example], query, match, options_.meanCost, options_.slopes));
+  float costOf(HeightQuery& query, const HeightMatch& match, float most) const {
+    return query.cost(coarse_[match.example], match, static_cast<float>(options_.meanCost),
+                      static_cast<float>(options_.slopes), most);
   }
 
-  void better(const HeightQuery& query, const std::vector<HeightOrigin>& taken,
+  void better(HeightQuery& query, const std::vector<HeightOrigin>& taken,
               HeightMatch& match) const {
     for (int step = 4; step >= 1; step /= 2) {
       for (bool moved = true; moved;) {
@@ -135,7 +135,7 @@ class Chooser {
             near.x = static_cast<std::int16_t>(near.x + dx * step);
             near.y = static_cast<std::int16_t>(near.y + dy * step);
             if (!fits(near)) continue;
-            near.cost = costOf(query, near);
+            near.cost = costOf(query, near, match.cost);
             if (!(near.cost < match.cost) || isTaken(near, taken)) continue;
             match = near;
             moved = true;

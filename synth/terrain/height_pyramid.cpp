@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.h"
 #include "maps/halved.h"
@@ -33,23 +34,6 @@ double bankOf(std::span<const HeightSource> sources) {
   const auto at = static_cast<std::ptrdiff_t>(kGentle * static_cast<double>(steps.size() - 1));
   std::nth_element(steps.begin(), steps.begin() + at, steps.end());
   return std::max(steps[static_cast<std::size_t>(at)], 1e-6f);
-}
-
-Grid<float> detailOf(const Grid<float>& fine, const Grid<float>& half) {
-  Grid<float> detail(fine.width(), fine.height());
-  parallelFor(0, static_cast<std::size_t>(fine.height()), 16, [&](std::size_t y0, std::size_t y1) {
-    for (std::size_t r = y0; r < y1; ++r) {
-      const int y = static_cast<int>(r);
-      for (int x = 0; x < fine.width(); ++x) {
-        float coarse = between(half, x, y, false, false);
-        // Beside a hole.
-        if (std::isnan(coarse))
-          coarse = half(std::min(x / 2, half.width() - 1), std::min(y / 2, half.height() - 1));
-        detail(x, y) = fine(x, y) - coarse;
-      }
-    }
-  });
-  return detail;
 }
 
 /// The means of what lies under each of `to` equal parts of `from` samples, as weights of a few
@@ -81,7 +65,40 @@ std::vector<Share> sharesOf(int from, int to) {
   return shares;
 }
 
+/// The mean of what is known at a sample and around it; NaN where nothing is.
+float besideHole(const Grid<float>& half, int x, int y) {
+  if (!std::isnan(half(x, y))) return half(x, y);
+  float sum = 0, count = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(half.height() - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(half.width() - 1, x + 1); ++u) {
+      if (std::isnan(half(u, v))) continue;
+      sum += half(u, v);
+      count += 1;
+    }
+  }
+  return count > 0 ? sum / count : std::numeric_limits<float>::quiet_NaN();
+}
+
 }  // namespace
+
+Grid<float> detailOf(const Grid<float>& fine, const Grid<float>& half) {
+  Grid<float> detail(fine.width(), fine.height());
+  parallelFor(0, static_cast<std::size_t>(fine.height()), 16, [&](std::size_t y0, std::size_t y1) {
+    for (std::size_t r = y0; r < y1; ++r) {
+      const int y = static_cast<int>(r);
+      for (int x = 0; x < fine.width(); ++x) {
+        float coarse = between(half, x, y, false, false);
+        if (std::isnan(coarse) && !std::isnan(fine(x, y)))
+          coarse = besideHole(half, std::min(x / 2, half.width() - 1),
+                              std::min(y / 2, half.height() - 1));
+        // Nothing coarse is known here.
+        if (std::isnan(coarse)) coarse = fine(x, y);
+        detail(x, y) = fine(x, y) - coarse;
+      }
+    }
+  });
+  return detail;
+}
 
 std::vector<HeightLevel> heightPyramid(std::span<const Grid<float>> examples, int levels) {
   std::vector<HeightLevel> pyramid(static_cast<std::size_t>(levels));

@@ -26,6 +26,9 @@ struct HeightLevel {
 /// one before, a last odd row or column is left out.
 std::vector<HeightLevel> heightPyramid(std::span<const Grid<float>> examples, int levels);
 
+/// Heights less what half their resolution has there.
+Grid<float> detailOf(const Grid<float>& heights, const Grid<float>& half);
+
 /// The height at sample (x, y) of twice the resolution, linearly between the middles of samples.
 float between(const Grid<float>& half, int x, int y, bool wrapsX, bool wrapsY);
 

@@ -8,7 +8,6 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -19,6 +18,8 @@ namespace {
 constexpr std::array<Pixel, 8> kSteps{
     {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 constexpr std::uint8_t kOutlet = 8, kUnseen = 9;
+/// Cuts that are less deep than this, of what banks rise in a step, have none.
+constexpr float kShallow = 0.25f;
 
 /// Samples in the order of their heights, first come first served among about equal ones: a queue
 /// of 2^18 buckets, in constant time.
@@ -85,7 +86,7 @@ class Outlets {
   OutletsCut run() {
     OutletsCut made;
     if (!(most_ > least_)) return made;
-    if (options_.keptShare > 0) keepHollows();
+    if (!options_.kept.empty()) keepHollows();
     fill(made);
     cut(made);
     return made;
@@ -183,14 +184,23 @@ class Outlets {
           hollow.push_back(n);
         }
       }
-      if (hollow.size() <= options_.largestKept) hollows.push_back(std::move(hollow));
+      hollows.push_back(std::move(hollow));
     }
-    std::ranges::stable_sort(hollows,
-                             [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    // From the largest size down; those of one size in an order without direction.
+    const auto sizeOf = [](const auto& hollow) {
+      return static_cast<std::size_t>(std::bit_width(hollow.size())) - 1;
+    };
+    const auto orderOf = [](const auto& hollow) { return hollow.front() * 2654435769u; };
+    std::ranges::stable_sort(hollows, [&](const auto& a, const auto& b) {
+      return sizeOf(a) != sizeOf(b) ? sizeOf(a) > sizeOf(b) : orderOf(a) < orderOf(b);
+    });
     kept_.assign(level.size(), 0);
     standing_.assign(level.size(), least_);
-    double left = options_.keptShare * static_cast<double>(level.size());
+    double left = 0;
+    std::size_t next = options_.kept.size();
     for (const std::vector<std::uint32_t>& hollow : hollows) {
+      for (; next > sizeOf(hollow); --next)
+        left += options_.kept[next - 1] * static_cast<double>(level.size());
       if (static_cast<double>(hollow.size()) > left) continue;
       left -= static_cast<double>(hollow.size());
       for (const std::uint32_t s : hollow) {
@@ -222,12 +232,26 @@ class Outlets {
     made.flooded = static_cast<double>(flooded) / static_cast<double>(level.size());
   }
 
-  /// Cuts a way from every pit, by own heights: a hollow's pit is reached first over its lowest
-  /// saddle, and the way back is the way that the water takes.
   void cut(OutletsCut& made) {
-    const float step = std::max(
-        {static_cast<float>(options_.fall), (most_ - least_) * 1e-6f, std::abs(most_) * 2.4e-7f});
     const std::vector<float> before(heights_.values().begin(), heights_.values().end());
+    shapeBanks(carve(made), before);
+    double sum = 0;
+    for (std::size_t s = 0; s < before.size(); ++s) {
+      const double depth = before[s] - heights_[s];
+      if (!(depth > 0)) continue;
+      sum += depth;
+      made.deepest = std::max(made.deepest, depth);
+    }
+    made.mean = sum / static_cast<double>(before.size());
+  }
+
+  /// A step that heights of this size can take.
+  float leastStep() const { return std::max((most_ - least_) * 1e-6f, std::abs(most_) * 2.4e-7f); }
+
+  /// Cuts a way from every pit, by own heights: a hollow's pit is reached first over its lowest
+  /// saddle, and the way back is the way that the water takes. Returns what was lowered.
+  std::vector<std::uint32_t> carve(OutletsCut& made) {
+    const float step = std::max(static_cast<float>(options_.fall), leastStep());
     std::vector<std::uint32_t> changed;
     std::vector<std::uint8_t> drained(water_ ? water_->count : 0);
     const auto wantsOutlet = [&](std::uint32_t s) {
@@ -251,15 +275,7 @@ class Outlets {
             }
             made.outlets += any;
           });
-    shapeBanks(changed, before);
-    double sum = 0;
-    for (std::size_t s = 0; s < before.size(); ++s) {
-      const double depth = before[s] - heights_[s];
-      if (!(depth > 0)) continue;
-      sum += depth;
-      made.deepest = std::max(made.deepest, depth);
-    }
-    made.mean = sum / static_cast<double>(before.size());
+    return changed;
   }
 
   bool isPit(std::uint32_t s) const {
@@ -270,26 +286,44 @@ class Outlets {
     return true;
   }
 
-  /// Lowers what stands steeper beside a cut than banks do. What is lowered still falls to the cut.
+  /// Lowers what lies beside a cut with it, by less the farther it is away: the land there keeps
+  /// its shape, as far as it still falls to the cut.
   void shapeBanks(const std::vector<std::uint32_t>& changed, const std::vector<float>& before) {
     if (!std::isfinite(options_.bank)) return;
     const auto bank = static_cast<float>(options_.bank);
-    std::deque<std::uint32_t> queue;
-    for (const std::uint32_t s : changed)
-      if (before[s] - heights_[s] > 0.25f * bank) queue.push_back(s);
+    const float rise = leastStep();
+    std::vector<float> lowered(before.size());
+    std::vector<std::uint32_t> cut;
+    float most = 0;
+    for (const std::uint32_t s : changed) {
+      const float depth = before[s] - heights_[s];
+      if (depth <= kShallow * bank || lowered[s] > 0) continue;
+      lowered[s] = depth;
+      most = std::max(most, depth);
+      cut.push_back(s);
+    }
+    if (cut.empty()) return;
+    // The deepest first, so that each sample is lowered once.
+    HeightQueue queue(before.size(), 0, most);
+    for (const std::uint32_t s : cut) queue.push(s, most - lowered[s]);
     std::size_t visits = 0;
     while (!queue.empty()) {
       if ((++visits & 0xffff) == 0) progress_.check();
-      const std::uint32_t s = queue.front();
-      queue.pop_front();
+      const std::uint32_t s = queue.pop();
       for (int d = 0; d < 8; ++d) {
         std::uint32_t n;
-        if (!neighbor(s, d, n) || isHeld(n) || !(toward_[n] < kUnseen)) continue;
+        if (!neighbor(s, d, n) || isHeld(n) || isKept(n)) continue;
+        if (!(toward_[n] < kUnseen) || lowered[n] > 0) continue;
         const bool straight = kSteps[d].x == 0 || kSteps[d].y == 0;
-        const float most = heights_[s] + bank * (straight ? 1.0f : 1.41421356f);
-        if (heights_[n] <= most) continue;
-        heights_[n] = most;
-        queue.push_back(n);
+        const float by = lowered[s] - bank * (straight ? 1.0f : 1.41421356f);
+        // Above what it falls to, so that no way to the cut is closed.
+        float to = std::max(before[n] - by, heights_[s] + rise);
+        // And above water that stays.
+        if (!standing_.empty()) to = std::max(to, standing_[n]);
+        if (by <= 0 || to >= heights_[n]) continue;
+        heights_[n] = to;
+        lowered[n] = before[n] - to;
+        queue.push(n, most - lowered[n]);
       }
     }
   }

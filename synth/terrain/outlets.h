@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/progress.h"
 #include "maps/grid.h"
@@ -20,12 +21,12 @@ struct OutletOptions {
   /// How much a filled hollow and the bed of a cut fall toward their outlet, height per sample; >=
   /// 0.
   double fall = 0;
-  /// Slope of the banks of a cut, height per sample; > 0; infinite: cuts are one sample wide.
+  /// Beside a cut land is lowered with it, by so much less a sample: what it adds to the slope of
+  /// banks, which keep their shape; > 0; infinite: cuts are one sample wide.
   double bank = 1;
-  /// Hollows that may stay: of so many of the samples, the largest first, none of more than
-  /// `largestKept` samples.
-  double keptShare = 0;
-  std::size_t largestKept = 0;
+  /// Hollows that may stay: as shares of the samples, by size, as `Hollows::bySize` has them; what
+  /// one size does not need is left to smaller ones.
+  std::span<const double> kept;
   bool wrapsX = false, wrapsY = false;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -166,16 +167,20 @@ WaterBodies settleWater(Grid<float>& heights, const Grid<HeightOrigin>& origins,
 
 Hollows hollowsOf(std::span<const Grid<float>> maps, const Progress& progress) {
   Hollows hollows;
-  std::size_t flooded = 0, all = 0;
+  std::size_t all = 0;
   for (const Grid<float>& heights : maps) {
     const Drainage drainage = drain(heights, progress);
     all += drainage.order.size();
     for (const Depression& depression : depressions(heights, drainage.levels)) {
-      flooded += depression.cells;
-      hollows.largest = std::max(hollows.largest, depression.cells);
+      const std::size_t size = static_cast<std::size_t>(std::bit_width(depression.cells)) - 1;
+      if (size >= hollows.bySize.size()) hollows.bySize.resize(size + 1);
+      hollows.bySize[size] += static_cast<double>(depression.cells);
     }
   }
-  if (all > 0) hollows.share = static_cast<double>(flooded) / static_cast<double>(all);
+  for (double& samples : hollows.bySize) {
+    samples /= static_cast<double>(all);
+    hollows.share += samples;
+  }
   return hollows;
 }
 

@@ -43,8 +43,9 @@ WaterBodies settleWater(Grid<float>& heights, const Grid<HeightOrigin>& origins,
 
 /// The hollows of height maps, of which a result keeps as many.
 struct Hollows {
-  double share = 0;         ///< of the samples, below where they spill over
-  std::size_t largest = 0;  ///< samples
+  double share = 0;  ///< of the samples, below where they spill over
+  /// The same by size: in those of 1 sample, of 2 or 3, of 4 to 7, ...
+  std::vector<double> bySize;
 };
 Hollows hollowsOf(std::span<const Grid<float>> maps, const Progress& progress = {});
 

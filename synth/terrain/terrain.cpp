@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +16,8 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "maps/drainage.h"
+#include "synth/terrain/bent_heights.h"
+#include "synth/terrain/gradient_direction.h"
 #include "synth/terrain/gradient_domain.h"
 #include "synth/terrain/height_patches.h"
 #include "synth/terrain/height_pieces.h"
@@ -41,13 +45,12 @@ constexpr double kMostStrength = 1.5;
 constexpr double kFillBefore = 0.2, kFillAtLast = 0.5;
 /// From which share of the samples in hollows on they are the land's own.
 constexpr double kNaturalHollows = 0.02;
+/// How many more of them a result may have.
+constexpr double kMoreHollows = 1.1;
 /// The least lakes of a result, samples.
 constexpr std::size_t kLeastLake = 24;
 /// How much beds of cuts fall beside the larger streams of the example.
 constexpr double kFallShare = 0.5;
-/// Orientations keep a terrain's direction where they change the tensor of its gradients by no more
-/// than this share: up to about 1.8 between its axes.
-constexpr double kTurnTolerance = 0.4;
 
 /// How far the larger streams of the examples fall, height per sample.
 double streamFall(std::span<const Grid<float>> examples, const Progress& progress) {
@@ -86,7 +89,7 @@ class Synthesis {
  public:
   Synthesis(std::span<const Grid<float>> examples, const TerrainSynthesisOptions& options,
             const Progress& progress)
-      : options_(options), levels_(levelsOf(examples, options)) {
+      : options_(options), examples_(examples.size()), levels_(levelsOf(examples, options)) {
     turns_ = options.turns.empty() ? turnsOf(examples) : options.turns;
     pyramid_ = heightPyramid(examples, levels_);
     const auto hasPlaces = [](const HeightSource& source) { return source.places > 0; };
@@ -112,8 +115,11 @@ class Synthesis {
         for (const HeightSource& source : pyramid_[l].sources) maps.push_back(source.heights);
         hollows_[l] = hollowsOf(maps, l == 0 ? progress.part(0.6, 0.9) : progress.part(0.9, 0.9));
         if (l == 0 && hollows_[l].share < kNaturalHollows) break;
+        for (double& share : hollows_[l].bySize) share *= kMoreHollows;
       }
     }
+    addBentCopies(pyramid_, examples_,
+                  bendsOf(examples, turns_, !options.turns.empty(), options.seed));
     // A guide has heights of its own.
     if (options.control.guide.empty()) seaLevel_ = seaLevelOf(pyramid_.front());
     guideLevel_ = options.control.guideLevel < 0
@@ -207,16 +213,17 @@ class Synthesis {
       origins = field.origins(progress);
       heights = copied(level, origins);
     } else {
-      pieces =
-          choosePieces(pyramid_[static_cast<std::size_t>(l + 1)].sources, heights, origins, size,
-                       {.size = options_.piece,
-                        .meanCost = kFinerLevel,
-                        .seed = options_.seed,
-                        .level = static_cast<std::uint64_t>(l),
-                        .turns = turns_,
-                        .wrapsX = options_.wrapsX,
-                        .wrapsY = options_.wrapsY},
-                       progress);
+      pieces = choosePieces(
+          std::span(pyramid_[static_cast<std::size_t>(l + 1)].sources).first(level.sources.size()),
+          heights, origins, size,
+          {.size = options_.piece,
+           .meanCost = kFinerLevel,
+           .seed = options_.seed,
+           .level = static_cast<std::uint64_t>(l),
+           .turns = turns_,
+           .wrapsX = options_.wrapsX,
+           .wrapsY = options_.wrapsY},
+          progress);
       field.begin(pieces, level.sources);
       origins = field.origins(progress);
       heights = refined(heights, origins, level);
@@ -230,6 +237,7 @@ class Synthesis {
       match(field, level, l, round, heights, progress);
       if (round + 1 == rounds) break;
       heights = field.vote(level.sources, heights, progress);
+      if (coarsest) spread(level, heights);
       steer(l, heights);
       // On the finest resolution, once at the end.
       if (l > 0) {
@@ -256,6 +264,25 @@ class Synthesis {
     // Finer resolutions follow the guide with its outlets, or they would close them again.
     for (std::size_t s = 0; s < before.count(); ++s)
       control.guide[s] -= std::max(0.0f, before[s] - heights[s]);
+  }
+
+  /// Gives the layout the examples' heights: each sample becomes what has its rank there. Cuts and
+  /// votes draw them together.
+  void spread(const HeightLevel& level, Grid<float>& heights) const {
+    // What is known of the result has heights of its own.
+    if (!options_.control.guide.empty() || !options_.control.hold.empty()) return;
+    std::vector<float> wanted;
+    for (std::size_t e = 0; e < examples_; ++e) {
+      std::ranges::copy_if(level.sources[e].heights.values(), std::back_inserter(wanted),
+                           [](float h) { return !std::isnan(h); });
+    }
+    std::ranges::sort(wanted);
+    std::vector<std::uint32_t> order(heights.count());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(
+        order, [&](std::uint32_t a, std::uint32_t b) { return heights[a] < heights[b]; });
+    for (std::size_t n = 0; n < order.size(); ++n)
+      heights[order[n]] = wanted[(2 * n + 1) * wanted.size() / (2 * order.size())];
   }
 
   static bool hasWater(const HeightLevel& level) { return !level.water.empty(); }
@@ -362,7 +389,8 @@ class Synthesis {
       for (int x = 0; x < heights.width(); ++x)
         detail(x, y) = heights(x, y) - between(half, x, y, options_.wrapsX, options_.wrapsY);
     });
-    const double own = meanSquare({&detail, 1}), wanted = meanSquare(level.details);
+    const double own = meanSquare({&detail, 1}),
+                 wanted = meanSquare(std::span(level.details).first(examples_));
     if (!(own > 0)) return;
     const auto more =
         static_cast<float>(std::clamp(std::sqrt(wanted / own), 1.0, kMostStrength) - 1);
@@ -459,15 +487,15 @@ class Synthesis {
     // Few and small ones are faults of a survey, more of them are what the land is like.
     const Hollows& hollows = hollows_[static_cast<std::size_t>(l)];
     const bool keeps = hollows_[0].share >= kNaturalHollows;
-    const OutletsCut cut = cutOutlets(heights, controls_[static_cast<std::size_t>(l)].held,
-                                      {.fill = fill,
-                                       .fall = std::ldexp(fall_, l) * l / std::max(1, levels_ - 1),
-                                       .bank = pyramid_[static_cast<std::size_t>(l)].bank,
-                                       .keptShare = keeps ? hollows.share : 0,
-                                       .largestKept = hollows.largest,
-                                       .wrapsX = options_.wrapsX,
-                                       .wrapsY = options_.wrapsY},
-                                      water.bodies.empty() ? nullptr : &water, progress);
+    const OutletsCut cut = cutOutlets(
+        heights, controls_[static_cast<std::size_t>(l)].held,
+        {.fill = fill,
+         .fall = std::ldexp(fall_, l) * l / std::max(1, levels_ - 1),
+         .bank = pyramid_[static_cast<std::size_t>(l)].bank,
+         .kept = keeps ? std::span<const double>(hollows.bySize) : std::span<const double>(),
+         .wrapsX = options_.wrapsX,
+         .wrapsY = options_.wrapsY},
+        water.bodies.empty() ? nullptr : &water, progress);
     if (seaLevel_ && !water.bodies.empty()) {
       // Beds that end at the sea end at its level.
       const Grid<std::uint8_t>& held = controls_[static_cast<std::size_t>(l)].held;
@@ -481,6 +509,7 @@ class Synthesis {
   }
 
   const TerrainSynthesisOptions& options_;
+  std::size_t examples_;
   int levels_;
   int guideLevel_ = 0;
   double fall_ = 0;
@@ -492,33 +521,6 @@ class Synthesis {
 };
 
 }  // namespace
-
-std::vector<int> turnsOf(std::span<const Grid<float>> examples) {
-  double xx = 0, xy = 0, yy = 0;
-  for (const Grid<float>& h : examples) {
-    for (int y = 0; y + 1 < h.height(); ++y) {
-      for (int x = 0; x + 1 < h.width(); ++x) {
-        const double dx = h(x + 1, y) - h(x, y), dy = h(x, y + 1) - h(x, y);
-        if (std::isnan(dx) || std::isnan(dy)) continue;
-        xx += dx * dx;
-        xy += dx * dy;
-        yy += dy * dy;
-      }
-    }
-  }
-  std::vector<int> turns;
-  for (int turn = 0; turn < 8; ++turn) {
-    // What the products become where gradients turn along.
-    const Pixel ex = turnedStep({1, 0}, turn), ey = turnedStep({0, 1}, turn);
-    const double tx = ex.x * ex.x * xx + 2 * ex.x * ey.x * xy + ey.x * ey.x * yy;
-    const double txy = ex.x * ex.y * xx + (ex.x * ey.y + ey.x * ex.y) * xy + ey.x * ey.y * yy;
-    const double ty = ex.y * ex.y * xx + 2 * ex.y * ey.y * xy + ey.y * ey.y * yy;
-    const double change =
-        std::sqrt((tx - xx) * (tx - xx) + 2 * (txy - xy) * (txy - xy) + (ty - yy) * (ty - yy));
-    if (change <= kTurnTolerance * (xx + yy)) turns.push_back(turn);
-  }
-  return turns;
-}
 
 SynthesizedTerrain synthesizeTerrain(std::span<const Grid<float>> examples,
                                      const TerrainSynthesisOptions& options,

@@ -70,10 +70,6 @@ struct SynthesizedTerrain {
   double deepestCut = 0;
 };
 
-/// The orientations that keep the direction of heights: those that change the mean of products of
-/// their gradients little. At least 0 and 2 (half a turn).
-std::vector<int> turnsOf(std::span<const Grid<float>> examples);
-
 /// Makes more of height maps of one unit and cell size; samples that are NaN are holes, from which
 /// nothing is taken. About 6 microseconds of one core a sample, and 80 bytes. The same bytes at any
 /// number of threads. Throws `InputError` where maps are too small or hold no patch without holes,

@@ -10,12 +10,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
 #include "core/error.h"
 #include "measure/figures.h"
 #include "measure/terrain_copies.h"
+#include "measure/turned_copies.h"
 #include "tests/measure/land.h"
 #include "tests/progress_checks.h"
 #include "tests/threads.h"
@@ -51,6 +53,8 @@ TEST(Terrain, OfTheExampleItselfIsAllTheSame) {
   EXPECT_EQ(self.curvature.result, 0);
   EXPECT_EQ(self.stepRatio, 1);
   EXPECT_EQ(self.verbatimShare, 1);
+  EXPECT_EQ(self.copiedShapes.result, 1);
+  EXPECT_EQ(self.copiedLayout.result, 1);
   EXPECT_EQ(self.result.valleyLength, self.example.valleyLength);
 }
 
@@ -68,6 +72,9 @@ TEST(Terrain, FreshLandPasses) {
   EXPECT_LT(*f.stepRatio, 1.3);
   EXPECT_EQ(f.verbatimShare, 0);
   EXPECT_LT(*f.result.repeatedPeaks, 0.05);
+  EXPECT_LT(*f.result.repeatedShapes, *f.example.repeatedShapes + 0.05);
+  EXPECT_LT(*f.copiedShapes.result, *f.copiedShapes.floor + 0.05);
+  EXPECT_LT(*f.copiedLayout.result, 0.05);
   EXPECT_LT(*f.result.flatShare, 0.001);
 }
 
@@ -143,6 +150,59 @@ TEST(Terrain, ACopyIsOneHoweverItIsTurnedRaisedAndBent) {
     h = example()(kSide - 1 - y, x) + 200 + static_cast<float>(bend);
   }));
   EXPECT_GT(*t.verbatimShare, 0.95);
+}
+
+/// The height of a map between its cells; the nearest beyond its ends.
+float heightAt(const Grid<float>& map, double x, double y) {
+  x = std::clamp(x, 0.0, map.width() - 1.001);
+  y = std::clamp(y, 0.0, map.height() - 1.001);
+  const int u = static_cast<int>(x), v = static_cast<int>(y);
+  const double fx = x - u, fy = y - v;
+  return static_cast<float>((1 - fy) * ((1 - fx) * map(u, v) + fx * map(u + 1, v)) +
+                            fy * ((1 - fx) * map(u, v + 1) + fx * map(u + 1, v + 1)));
+}
+
+TEST(Terrain, ACopyIsOneAtAnyAngleMirroredRaisedAndTilted) {
+  for (const double degrees : {17.0, 45.0, 71.0}) {
+    SCOPED_TRACE(degrees);
+    const double angle = degrees * std::numbers::pi / 180, middle = kSide / 2.0;
+    const TerrainLikeness t = against(changed(example(), [&](int x, int y, float& h) {
+      const double dx = middle - x, dy = y - middle;
+      h = heightAt(example(), middle + std::cos(angle) * dx + std::sin(angle) * dy,
+                   middle - std::sin(angle) * dx + std::cos(angle) * dy) +
+          300 + 0.1f * static_cast<float>(x);
+    }));
+    // Corners come from beyond the example.
+    EXPECT_GT(*t.copiedShapes.result, 0.6);
+    EXPECT_GT(*t.copiedLayout.result, 0.4);
+    // The figure of quarter turns does not see it.
+    EXPECT_LT(*t.verbatimShare, 0.3);
+  }
+}
+
+TEST(Terrain, RepeatedShapesAreFoundAtAnyAngle) {
+  // A disk of land in six places, each at another angle.
+  const Grid<float> base = land(kSide, kSide, 5);
+  Grid<float> map = base;
+  for (int n = 0; n < 6; ++n) {
+    const Pixel to{40 + 55 * (n % 3), 50 + 90 * (n / 3)};
+    const double angle = 0.4 + 0.9 * n;
+    for (int y = -26; y <= 26; ++y) {
+      for (int x = -26; x <= 26; ++x) {
+        const double weight = std::clamp((26 - std::hypot(x, y)) / 4, 0.0, 1.0);
+        const double there = heightAt(base, 96 + std::cos(angle) * x + std::sin(angle) * y,
+                                      96 - std::sin(angle) * x + std::cos(angle) * y);
+        float& h = map(to.x + x, to.y + y);
+        h = static_cast<float>((1 - weight) * h + weight * (there + 30 * n));
+      }
+    }
+  }
+  const auto repeated = [](const Grid<float>& heights) {
+    return *TerrainShapes(heights, 400).repeated();
+  };
+  EXPECT_LT(repeated(base), 0.1);
+  EXPECT_GT(repeated(map), repeated(base) + 0.15);
+  testing::expectSameAtAnyThreads([&] { return repeated(map); });
 }
 
 TEST(Terrain, RepeatedPeaksAreFoundRaisedAndMoved) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "maps/drainage.h"
@@ -88,19 +89,29 @@ TEST(CutOutlets, GivesALakeAnOutletAndLeavesItFlat) {
   EXPECT_EQ(cutOutlets(island, {}, {.fill = 0}, &water).outlets, 0);
 }
 
-TEST(CutOutlets, KeepsHollowsUpToAShareAndASize) {
+TEST(CutOutlets, KeepsHollowsUpToTheirSharesBySize) {
   const Grid<float> rough = ridges(120, 100, 3);
   const Hollows all = hollowsOf({&rough, 1});
   ASSERT_GT(all.share, 0.05);
+  EXPECT_NEAR(std::accumulate(all.bySize.begin(), all.bySize.end(), 0.0), all.share, 1e-12);
+  ASSERT_GT(all.bySize.size(), 4u);
+  // Half of each size, and none of the largest.
+  std::vector<double> wanted = all.bySize;
+  for (double& share : wanted) share /= 2;
+  wanted.pop_back();
   Grid<float> heights = rough;
-  const OutletsCut cut =
-      cutOutlets(heights, {}, {.keptShare = all.share / 2, .largestKept = all.largest / 2});
+  const OutletsCut cut = cutOutlets(heights, {}, {.kept = wanted});
   EXPECT_NEAR(cut.flooded, all.share, 1e-9);
   const Hollows kept = hollowsOf({&heights, 1});
-  EXPECT_LE(kept.share, all.share / 2);
-  EXPECT_GT(kept.share, all.share / 10);
-  // Two that stay side by side may become one.
-  EXPECT_LE(kept.largest, all.largest);
+  const double most = std::accumulate(wanted.begin(), wanted.end(), 0.0);
+  EXPECT_LE(kept.share, most);
+  EXPECT_GT(kept.share, most / 2);
+  // Two that stay side by side may become one of the next size.
+  EXPECT_LE(kept.bySize.size(), all.bySize.size());
+  // All of them: nothing changes.
+  Grid<float> same = rough;
+  EXPECT_EQ(cutOutlets(same, {}, {.kept = all.bySize}).outlets, 0);
+  EXPECT_EQ(same, rough);
 }
 
 TEST(Terrain, HasTheExamplesSeaAndLakes) {
