@@ -15,14 +15,15 @@ enum Name : std::uint32_t {
   kPatchMatch = 0x706d,
   kPatchFeatures = 0x7063,  ///< which patches their principal components are taken from
   // synth/geometry
-  kBlockSeeding = 0xb10c,  ///< what samples that are not made yet count as
-  kBlockStart = 0xb10d,    ///< where the first block of a level comes from
-  kSmallBlocks = 0x0b71,   ///< a start from small blocks
-  kPatchSearch = 0x0b72,   ///< PatchMatch
-  kQuilt = 0x0b73,         ///< a start from large blocks
-  kSeamRepair = 0x0b74,    ///< PatchMatch where a seam shows
-  kParts = 0x0b76,         ///< which parts of an object are exchanged
-  kSlices = 0x0b75,        ///< which slices of an object are repeated or left out
+  kBlockSeeding = 0xb10c,    ///< what samples that are not made yet count as
+  kBlockStart = 0xb10d,      ///< where the first block of a level comes from
+  kSmallBlocks = 0x0b71,     ///< a start from small blocks
+  kPatchSearch = 0x0b72,     ///< PatchMatch
+  kQuilt = 0x0b73,           ///< a start from large blocks
+  kSeamRepair = 0x0b74,      ///< PatchMatch where a seam shows
+  kExampleRegions = 0x0b77,  ///< where which of several examples is
+  kParts = 0x0b76,           ///< which parts of an object are exchanged
+  kSlices = 0x0b75,          ///< which slices of an object are repeated or left out
   // synth/surface
   kSurfaceField = 0x73661,    ///< where the iteration for a direction field starts
   kSurfaceStripes = 0x73662,  ///< where that for phases starts
@@ -58,6 +59,7 @@ enum Name : std::uint32_t {
   kResultWindows = 0x66706472,
   kLikenessWindows = 0x77696e64,
   kPatchDirections = 0x70646972,  ///< on which patches are projected
+  kLandmarks = 0x6c6d726b,        ///< which windows are asked whether they are landmarks
   // preview
   kPixels = 0x70726576,
   kBakedLight = 3,

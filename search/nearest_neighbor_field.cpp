@@ -69,6 +69,10 @@ class Field {
     findAllowed();
     if (options.start && options.start->position.size() != shape_)
       throw InputError("the start of a nearest-neighbor field has another shape");
+    if (options.placeOf) {
+      windowed_ = true;
+      checkPlaces();
+    }
     if (options.wanted && (!options.start || options.wanted->size() != shape_))
       throw InputError("wanted patches need a start, and a mask of the field's shape");
   }
@@ -93,6 +97,19 @@ class Field {
   }
 
  private:
+  void checkPlaces() const {
+    if (options_.placeOf->size() != shape_)
+      throw InputError("the places of a nearest-neighbor field have another shape");
+    const Vec3i positions = source_.positions();
+    for (const CellBox& place : options_.places)
+      if (volume(place.size()) == 0 || min(place.begin, place.end) != place.begin ||
+          max(place.begin, Vec3i{0, 0, 0}) != place.begin || min(place.end, positions) != place.end)
+        throw InputError("a place of a nearest-neighbor field is empty or outside the source");
+    for (const std::uint16_t place : options_.placeOf->values())
+      if (place >= options_.places.size())
+        throw InputError("a place of a nearest-neighbor field is none of those given");
+  }
+
   void findAllowed() {
     forEachCell(source_.positions(), [&](const Vec3i& p) {
       if (options_.allowed && !(*options_.allowed)[p]) return;
@@ -107,17 +124,21 @@ class Field {
   Vec3i patchPosition(const Vec3i& patch) const { return scaled(patch, options_.stride); }
 
   Window window(const Vec3i& patch) const {
-    const Vec3i last = source_.positions() - Vec3i{1, 1, 1};
+    const CellBox place = options_.placeOf ? options_.places[(*options_.placeOf)[patch]]
+                                           : CellBox::of(source_.positions());
+    const Vec3i first = place.begin, last = place.end - Vec3i{1, 1, 1};
     const Vec3i targetLast = target_.positions() - Vec3i{1, 1, 1};
-    Window window{{0, 0, 0}, last};
+    Window window{first, last};
     const Vec3i p = patchPosition(patch);
     for (int axis = 0; axis < 3; ++axis)
       if (options_.window[axis] >= 0) {
-        const int center = targetLast[axis] == 0
-                               ? last[axis] / 2
+        const int length = last[axis] - first[axis];
+        const int center =
+            first[axis] + (targetLast[axis] == 0
+                               ? length / 2
                                : static_cast<int>(std::lround(static_cast<double>(p[axis]) *
-                                                              last[axis] / targetLast[axis]));
-        window.first[axis] = std::max(0, center - options_.window[axis]);
+                                                              length / targetLast[axis])));
+        window.first[axis] = std::max(first[axis], center - options_.window[axis]);
         window.last[axis] = std::min(last[axis], center + options_.window[axis]);
       }
     return window;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/array3d.h"
+#include "core/cells.h"
 #include "core/progress.h"
 
 namespace exemplar {
@@ -48,6 +49,11 @@ struct NearestNeighborFieldOptions {
   /// after the target's position is scaled by (source - patch) / (target - patch); negative: no
   /// limit. For examples that are not stationary along an axis (terrain's height).
   Vec3i window{-1, -1, -1};
+  /// Boxes of source positions, for target patches that are each matched in one of them only, as
+  /// `placeOf` says: of the field's shape, an index into `places`. A `window` is then one of that
+  /// box. Both or none.
+  std::span<const CellBox> places;
+  const Array3D<std::uint16_t>* placeOf = nullptr;
   /// A field to start from, of the same shape (the previous round's): PatchMatch begins with it,
   /// and Exact takes first upper bounds from it. Positions outside the source or not allowed are
   /// ignored.

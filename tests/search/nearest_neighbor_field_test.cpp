@@ -154,6 +154,37 @@ TEST(NearestNeighborField, AWindowWithoutAnAllowedPositionDoesNotCount) {
   }
 }
 
+TEST(NearestNeighborField, EachPatchIsMatchedInItsPlace) {
+  const Channels source{levels(fields::noise({20, 14, 12}, 1))},
+      target{levels(fields::noise({14, 13, 12}, 2))};
+  const CellBox places[] = {{{0, 0, 0}, {6, 11, 9}}, {{9, 2, 1}, {17, 11, 9}}};
+  Options options;
+  options.patch = {4, 4, 4};
+  options.window = {-1, -1, 2};
+  options.places = places;
+  Array3D<std::uint16_t> placeOf({11, 10, 9});
+  forEachCell(placeOf.size(), [&](const Vec3i& p) { placeOf[p] = (p.x / 3 + p.y) % 2; });
+  options.placeOf = &placeOf;
+  for (const NeighborMethod method : {NeighborMethod::Exact, NeighborMethod::PatchMatch}) {
+    options.method = method;
+    const auto field = nearestNeighborField(source, target, options);
+    forEachCell(placeOf.size(), [&](const Vec3i& p) {
+      const CellBox& place = places[placeOf[p]];
+      ASSERT_TRUE(place.contains(field.position[p]));
+      // The window is one of the place: its middle goes from the place's first layer to its last.
+      const double middle = place.begin.z + p.z * (place.end.z - 1 - place.begin.z) / 8.0;
+      ASSERT_LE(std::abs(field.position[p].z - middle), 2.5);
+      if (method != NeighborMethod::Exact) return;
+      double least = std::numeric_limits<double>::infinity();
+      forEachCell(place, [&](const Vec3i& q) {
+        if (std::abs(q.z - std::lround(middle)) <= 2)
+          least = std::min(least, patchDistance(source, q, target, p, options.patch));
+      });
+      EXPECT_NEAR(field.distance[p], least, 1e-5 * least + 1e-9);
+    });
+  }
+}
+
 TEST(NearestNeighborField, TheSourceMatchesItself) {
   const Channels source{fields::ballPacking(20, 4, 1)};
   const auto field = nearestNeighborField(source, source, {.patch = {5, 5, 5}});
@@ -220,6 +251,16 @@ TEST(NearestNeighborField, RefusesOptionsOutOfRange) {
   EXPECT_THROW(nearestNeighborField(a, a, {.allowed = &none}), InputError);
   EXPECT_THROW(nearestNeighborField(a, a, {.allowed = &small}), InputError);
   EXPECT_THROW(nearestNeighborField(a, a, {.sourceWeight = &zero}), InputError);
+  const Array3D<std::uint16_t> first({3, 3, 3}, 0), second({3, 3, 3}, 1), few({2, 3, 3}, 0);
+  const CellBox inside{{0, 0, 0}, {3, 3, 3}}, outside{{1, 0, 0}, {4, 3, 3}}, empty{};
+  const auto placed = [&](const CellBox& place, const Array3D<std::uint16_t>& of) {
+    nearestNeighborField(a, a, {.places = {&place, 1}, .placeOf = &of});
+  };
+  placed(inside, first);
+  EXPECT_THROW(placed(outside, first), InputError);
+  EXPECT_THROW(placed(empty, first), InputError);
+  EXPECT_THROW(placed(inside, second), InputError);
+  EXPECT_THROW(placed(inside, few), InputError);
 }
 
 TEST(NearestNeighborField, PatchesThatAreNotWantedKeepTheirStart) {

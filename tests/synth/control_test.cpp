@@ -190,6 +190,56 @@ TEST(SeveralExamples, AllTakePartAndOriginsSayWhich) {
   EXPECT_EQ(wrong, 0);
 }
 
+/// The second example's share of the surface: of all faces between solid and air, by what is solid.
+double surfaceOfSecond(const SynthesisResult& result) {
+  std::int64_t faces[2] = {};
+  const Array3D<float>& values = result.field.values;
+  for (std::size_t s = 0; s < values.count(); ++s) {
+    const Vec3i p = values.ijk(s);
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3i q = p;
+      if (++q[axis] >= values.size()[axis] || (values[p] < 0) == (values[q] < 0)) continue;
+      ++faces[result.origins[values[p] < 0 ? p : q].example];
+    }
+  }
+  return static_cast<double>(faces[1]) / static_cast<double>(faces[0] + faces[1]);
+}
+
+TEST(SeveralExamples, HaveTheSharesThatAreAskedForEvenWhereTheyDoNotGoTogether) {
+  // Balls of one size never become balls of another, and ground is no packing at all.
+  const DistanceField fine = balls({32, 32, 32}, 3, 7), coarse = balls({36, 32, 32}, 7, 8),
+                      land = ground({32, 32, 32}, 6);
+  const auto share = [&](const DistanceField& a, const DistanceField& b, double wanted) {
+    const DistanceField* examples[] = {&a, &b};
+    VotingOptions options = sized({64, 56, 32});
+    options.mix.shares = {1 - wanted, wanted};
+    return surfaceOfSecond(synthesizeByVoting(examples, options));
+  };
+  EXPECT_NEAR(share(fine, coarse, 0.5), 0.5, 0.1);
+  EXPECT_NEAR(share(coarse, fine, 0.3), 0.3, 0.1);
+  EXPECT_NEAR(share(coarse, land, 0.5), 0.5, 0.1);
+  EXPECT_EQ(share(fine, coarse, 0), 0);
+}
+
+TEST(SeveralExamples, AreWhereTheyArePainted) {
+  const DistanceField fine = balls({32, 32, 32}, 3, 7), coarse = balls({32, 32, 32}, 7, 8);
+  const DistanceField* examples[] = {&fine, &coarse};
+  VotingOptions options = sized({64, 40, 32});
+  options.mix.map = Array3D<float>(options.size);
+  for (std::size_t s = 0; s < options.mix.map->count(); ++s)
+    options.mix.map->values()[s] = options.mix.map->ijk(s).x < 32 ? 1 : 0;
+  const SynthesisResult result = synthesizeByVoting(examples, options);
+  std::int64_t wrong = 0;
+  for (std::size_t s = 0; s < result.origins.count(); ++s) {
+    // Where both meet, seams go where they agree best, and what is cleared away becomes air of
+    // either.
+    const int x = result.origins.ijk(s).x;
+    if (std::abs(x - 31.5) > 12 && result.field.values.values()[s] < 0)
+      wrong += result.origins.values()[s].example != (x < 32 ? 1 : 0);
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(Rotations, PartsAreTurnedAndOriginsSayHow) {
   const DistanceField example = balls({32, 28, 24}, 4, 9);
   VotingOptions options = sized({40, 40, 24});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,7 @@ class Objects {
     progress.report("finding where the object docks onto itself", 0);
     findDocking(progress.part(0, kPathsDone / 4));
     chooseGrowth();
+    if (options_.kept && !isFitted()) return std::move(result_);
     exchange(progress.part(kPathsDone / 4, kPathsDone / 2));
     layOut(progress.part(kPathsDone / 2, kPathsDone));
     Array3D<float> target = shown();
@@ -88,7 +90,7 @@ class Objects {
     target = shown();
     const Array3D<std::uint8_t> fixed = withoutMargins(level_, fixed_);
     result_.made = assemble(parts_, level_, sources_, target, options_.size, &fixed,
-                            progress.part(kCutDone, 1), true);
+                            progress.part(kCutDone, 1), !options_.kept);
     return std::move(result_);
   }
 
@@ -113,8 +115,26 @@ class Objects {
     }
   }
 
+  /// Whether the object is made longer or shorter in its own structure wherever it has to be.
+  bool isFitted() const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool fitted = result_.growth[static_cast<std::size_t>(axis)] == Growth::Fitted;
+      if (options_.size[axis] != example_[axis] && !(fitted && docks(axis))) return false;
+    }
+    return true;
+  }
+  /// Whether the joints of a path cost little enough.
+  bool docks(int axis) const {
+    const SlicePath path = fitted(axis, options_.size[axis]);
+    return !path.source.empty() && path.meanCost <= kDocks;
+  }
+
   /// Exchanges parts of each copy, on a grid that is small enough.
   void exchange(const Progress& progress) {
+    if (options_.kept) {
+      exchanges_.push_back({Array3D<Vec3i>({1, 1, 1}), Array3D<std::uint8_t>({1, 1, 1})});
+      return;
+    }
     int shrink = 1;
     while (volume(example_) / (static_cast<std::int64_t>(shrink) * shrink * shrink) > kMostSamples)
       shrink *= 2;
@@ -147,9 +167,7 @@ class Objects {
       const int length = options_.size[axis];
       growth = Growth::Varied;
       if (length == example_[axis]) continue;
-      const SlicePath path = fitted(axis, length);
-      const bool docks = !path.source.empty() && path.meanCost <= kDocks;
-      if (docks || length < example_[axis]) {
+      if (docks(axis) || length < example_[axis]) {
         growth = Growth::Fitted;
       } else {
         growth = axis == 2 ? Growth::Padded : Growth::Repeated;
@@ -162,7 +180,13 @@ class Objects {
     const std::uint64_t draw =
         Random(options_.seed, stream::kSlices).bits(static_cast<std::uint64_t>(axis));
     const int made = (length + along.shrink - 1) / along.shrink;
-    return along.fine(fittedPath(along.docking, made, draw), length);
+    std::vector<SliceRange> held;
+    if (options_.kept) held = keptRanges(*options_.kept, axis);
+    for (SliceRange& range : held) {
+      range.begin /= along.shrink;
+      range.end = (range.end + along.shrink - 1) / along.shrink;
+    }
+    return along.fine(fittedPath(along.docking, made, draw, held), length);
   }
 
   SlicePath varied(int axis, int copy) const {
@@ -177,6 +201,11 @@ class Objects {
   /// Which sample of the example each sample along an axis is, of one copy.
   std::vector<int> path(int axis, int copy) {
     const Growth growth = result_.growth[static_cast<std::size_t>(axis)];
+    if (options_.kept && growth != Growth::Fitted) {
+      std::vector<int> unchanged(static_cast<std::size_t>(example_[axis]));
+      std::iota(unchanged.begin(), unchanged.end(), 0);
+      return unchanged;
+    }
     SlicePath found =
         growth == Growth::Fitted ? fitted(axis, options_.size[axis]) : varied(axis, copy);
     misfit_ += found.joints * found.meanCost;
@@ -188,6 +217,19 @@ class Objects {
       cropped[i] = at < left ? at : example_[axis] - left;
     }
     return cropped;
+  }
+
+  /// Where along each axis the first slice that is kept has gone.
+  void findKeptOffset(const std::array<std::vector<int>, 3>& paths) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::vector<SliceRange> held = keptRanges(*options_.kept, axis);
+      const std::vector<int>& path = paths[static_cast<std::size_t>(axis)];
+      if (held.empty()) continue;
+      // The last slice of a range: at the first one, air may be repeated.
+      const int last = held.front().end - 1;
+      const auto at = std::find(path.begin(), path.end(), last);
+      if (at != path.end()) result_.keptOffset[axis] = static_cast<int>(at - path.begin()) - last;
+    }
   }
 
   /// Lays each copy out.
@@ -214,6 +256,7 @@ class Objects {
         if (tile[axis] == 0) box.begin[axis] = -before[axis];
         if (tile[axis] == count - 1) box.end[axis] = sources_.size()[axis] - before[axis];
       }
+      if (options_.kept) findKeptOffset(paths);
       parallelForEachCell(box, [&](const Vec3i& p) {
         Vec3i from;
         for (int axis = 0; axis < 3; ++axis) {
@@ -230,7 +273,8 @@ class Objects {
             {from.x / exchangeShrink_, from.y / exchangeShrink_, from.z / exchangeShrink_});
         const Vec3i origin = from + parts.offsets[cell] * exchangeShrink_ + first;
         sources_[p + before] = level_.source.values.clamped(origin);
-        fixed_[p + before] = parts.changed[cell];
+        fixed_[p + before] = options_.kept ? options_.kept->contains(from) && (*options_.kept)[from]
+                                           : parts.changed[cell];
       });
       ++copy;
     });

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "core/progress.h"
 #include "synth/geometry/synthesize.h"
@@ -30,6 +31,9 @@ struct ObjectOptions {
   /// parts can be moved so far without tearing; 0..1.
   double novelty = 0.22;
   double truncation = 4;  ///< distances count up to here, voxels; > 0
+  /// Samples of the example, not 0, that stay as they are, to the bit; of its size, or none. Then
+  /// nothing is varied: the result is the example made longer or shorter where nothing is kept.
+  std::optional<Array3D<std::uint8_t>> kept;
 };
 
 struct ObjectResult {
@@ -40,6 +44,7 @@ struct ObjectResult {
   /// The distance (1 - IoU) to the example in place, of a result of its own size, before joints are
   /// cut; else 0.
   double distance = 0;
+  Vec3i keptOffset{0, 0, 0};  ///< by which what is kept, and first along each axis, was moved
 };
 
 /// More of an object that stands alone, as an object: its ends, its ground, and how its parts hang
@@ -50,6 +55,9 @@ struct ObjectResult {
 /// along which the result is longer or shorter, the object is extended or shortened where it docks
 /// onto itself (`fittedPath`); where it does not, variations of it are placed side by side. Joints
 /// are then cut where both sides agree best, as everywhere (`assemble`).
+///
+/// Where something is kept and the example does not dock onto itself beside it along an axis along
+/// which the result is of another size, nothing is made, and `made.field` is empty.
 ///
 /// Memory about 120 bytes a sample of the result. The same bytes at any number of threads. Throws
 /// `InputError` for options out of range, `Cancelled`.

@@ -139,7 +139,8 @@ SlicePath variedPath(const SliceDocking& docking, double amplitude, double pull,
   return path;
 }
 
-SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw) {
+SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw,
+                     std::span<const SliceRange> held) {
   const int n = docking.slices(), begin = docking.solidBegin(), end = docking.solidEnd();
   const int run = shortestRun(docking);
   const int solid = end - begin;
@@ -161,6 +162,11 @@ SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw
       const double section = std::min(docking.section(begin + a), docking.section(begin + b));
       if (section < kThinnest) continue;
       if (made > solid && b > a) continue;  // nothing is left out of what becomes longer
+      // A joint repeats or leaves out what lies between its sides.
+      const auto crosses = [&](const SliceRange& range) {
+        return begin + std::min(a, b) < range.end && begin + std::max(a, b) > range.begin;
+      };
+      if (std::ranges::any_of(held, crosses)) continue;
       const double noise = 1 + kNoise * random.uniform(at(std::max(a, b), std::min(a, b)), kPrice);
       joint[at(a, b)] = (kJoint + kMisfit * docking.cost(begin + a, begin + b)) * noise;
     }

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "synth/geometry/kept_places.h"
 #include "synth/geometry/objects/slice_docking.h"
 
 namespace exemplar {
@@ -28,9 +30,10 @@ SlicePath variedPath(const SliceDocking& docking, double amplitude, double pull,
                      std::uint64_t draw);
 
 /// A path of `length` slices, not the example's number; the air at both ends has its share of them.
-/// A longer one repeats parts that dock onto
-/// themselves, none more often than the result has to; a shorter one leaves parts out. Empty where
-/// there is none. O(length x slices²); deterministic.
-SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw);
+/// A longer one repeats parts that dock onto themselves, none more often than the result has to; a
+/// shorter one leaves parts out. Each range of `held` is there once and whole. Empty where there is
+/// none. O(length x slices²); deterministic.
+SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw,
+                     std::span<const SliceRange> held = {});
 
 }  // namespace exemplar

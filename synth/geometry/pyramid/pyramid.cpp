@@ -36,13 +36,15 @@ bool allAreAir(std::span<const SourcePart> parts, int axis, bool high) {
       parts, [&](const SourcePart& part) { return isAir(part.field.values, axis, high); });
 }
 
-/// A cell of a coarser grid counts where all of its samples do.
+/// A cell of a coarser grid has its samples' value where all have the same, else 0.
 Array3D<std::uint8_t> shrunkMask(const Array3D<std::uint8_t>& mask, int shrink) {
   const Vec3i n = mask.size();
   Array3D<std::uint8_t> coarse(
-      {(n.x + shrink - 1) / shrink, (n.y + shrink - 1) / shrink, (n.z + shrink - 1) / shrink}, 1);
+      {(n.x + shrink - 1) / shrink, (n.y + shrink - 1) / shrink, (n.z + shrink - 1) / shrink});
+  forEachCell(coarse.size(), [&](const Vec3i& p) { coarse[p] = mask[p * shrink]; });
   forEachCell(n, [&](const Vec3i& p) {
-    if (!mask[p]) coarse(p.x / shrink, p.y / shrink, p.z / shrink) = 0;
+    std::uint8_t& cell = coarse(p.x / shrink, p.y / shrink, p.z / shrink);
+    if (mask[p] != cell) cell = 0;
   });
   return coarse;
 }
@@ -269,10 +271,17 @@ PyramidLevel makeLevel(std::span<const SourcePart> parts, int l, const PyramidOp
 
   if (options.kept) {
     target.kept = Array3D<std::uint8_t>(target.framed());
+    for (const Vec3i& offset : options.keptOffsets) {
+      Vec3i coarse;
+      for (int axis = 0; axis < 3; ++axis)
+        coarse[axis] = static_cast<int>(std::lround(static_cast<double>(offset[axis]) / shrink));
+      target.keptOffsets.push_back(coarse);
+    }
     const Array3D<std::uint8_t> kept = shrunkMask(*options.kept, shrink);
     forEachCell(kept.size(), [&](const Vec3i& cell) {
       const Vec3i p = cell + target.margin.before;
-      target.kept[p] = kept[cell] && source.values.contains(level.keptSource(p));
+      target.kept[p] = kept[cell];
+      if (kept[cell] && !source.parts[0].contains(level.keptSource(p))) target.kept[p] = 0;
     });
   }
   if (options.guide) level.guide.target = targetGuide(level, *options.guide, shrink, limit);

@@ -24,9 +24,11 @@ struct PyramidOptions {
   int stride = 2;         ///< patches this far apart must cover the target, samples
   double truncation = 4;  ///< voxels of the level
   Axes periodic;
-  /// Samples of the result that are given: the first part's at the same place. Of the result's
-  /// size, where not 0; or none. They lie inside that part.
+  /// Samples of the result that are given: of the result's size, where not 0, or none. Where v,
+  /// the sample is the first part's at its place less `keptOffsets[v - 1]`, or at its place where
+  /// there are no offsets. They lie inside that part.
   const Array3D<std::uint8_t>* kept = nullptr;
+  std::span<const Vec3i> keptOffsets;
   /// What the solid should be near to: of the result's size, in voxels; or none.
   const Array3D<float>* guide = nullptr;
 };
@@ -74,7 +76,8 @@ struct LevelTarget {
   /// side; and at the end some samples more, so that patches cover all.
   Margin margin;
   Axes periodic;
-  Array3D<std::uint8_t> kept;  ///< with the margin; empty: none
+  Array3D<std::uint8_t> kept;      ///< with the margin; empty: none
+  std::vector<Vec3i> keptOffsets;  ///< samples of the level; empty: none is moved
 
   Vec3i framed() const { return size + margin.before + margin.after; }
   /// A sample, margins included, brought inside along periodic axes.
@@ -101,7 +104,10 @@ struct PyramidLevel {
   /// The offset that leaves the first part where it is.
   Vec3i inPlace() const { return source.parts[0].begin - target.margin.before; }
   /// The source of a kept sample of the target.
-  Vec3i keptSource(const Vec3i& p) const { return p + inPlace(); }
+  Vec3i keptSource(const Vec3i& p) const {
+    const Vec3i there = p + inPlace();
+    return target.keptOffsets.empty() ? there : there - target.keptOffsets[target.kept[p] - 1U];
+  }
 };
 
 /// Where each sample of a level's target comes from in its source.

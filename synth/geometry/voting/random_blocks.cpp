@@ -36,21 +36,23 @@ int randomBlockLevels(const DistanceField& example) {
   return levels;
 }
 
-PyramidSources randomBlocks(const PyramidLevel& level, const Axes& stationary, std::uint64_t seed) {
+PyramidSources randomBlocks(const PyramidLevel& level, const Axes& stationary, std::uint64_t seed,
+                            const std::function<PartRange(const Vec3i&)>& partsAt) {
   const Random random(seed, stream::kSmallBlocks);
   const Array3D<std::uint8_t>& matchable = level.source.matchable;
   const Vec3i size = level.target.framed();
   const Vec3i block = max(level.patch, Vec3i{2, 2, 2});
   const Vec3i blocks{(size.x + block.x - 1) / block.x, (size.y + block.y - 1) / block.y,
                      (size.z + block.z - 1) / block.z};
-  const auto parts = static_cast<std::uint32_t>(level.source.parts.size());
   PyramidSources sources(size);
   parallelForEachCell(size, [&](const Vec3i& p) {
     const std::uint64_t key =
         (static_cast<std::uint64_t>(p.z / block.z) * blocks.y + p.y / block.y) * blocks.x +
         p.x / block.x;
+    const PartRange parts = partsAt(p);
     for (std::uint32_t draw = 0; draw < 4 * kDraws; draw += 4) {
-      const std::uint32_t part = parts == 1 ? 0 : random.below(parts, key, draw + 3);
+      const std::uint32_t part =
+          parts.first + (parts.count == 1 ? 0 : random.below(parts.count, key, draw + 3));
       const CellBox framed = level.source.framed(part);
       const Vec3i source = framed.size();
       Vec3i cell, first;

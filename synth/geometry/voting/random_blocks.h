@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "core/axes.h"
 #include "synth/geometry/pyramid/pyramid.h"
@@ -14,8 +15,15 @@ namespace exemplar {
 /// longest side, so that patches there see whatever is large.
 int randomBlockLevels(const DistanceField& example);
 
-/// The coarsest level's start: blocks of a patch's size and random content, of a random part, kept
-/// to their proportional place along axes that are not stationary. Deterministic.
-PyramidSources randomBlocks(const PyramidLevel& level, const Axes& stationary, std::uint64_t seed);
+/// Parts of a source that follow each other.
+struct PartRange {
+  std::uint32_t first = 0, count = 1;
+};
+
+/// The coarsest level's start: blocks of a patch's size and random content, of a random one of the
+/// parts that `partsAt` has for each sample of the target, kept to their proportional place along
+/// axes that are not stationary. Deterministic.
+PyramidSources randomBlocks(const PyramidLevel& level, const Axes& stationary, std::uint64_t seed,
+                            const std::function<PartRange(const Vec3i&)>& partsAt);
 
 }  // namespace exemplar

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,16 +33,20 @@ constexpr int kFirstIterations = 8, kIterations = 2;
 constexpr int kFirstReverseIterations = 5, kReverseIterations = 2;
 /// Distance of neighboring patches where the search is by PatchMatch, samples.
 constexpr int kStride = 2;
-/// How much dearer or cheaper the patches of an example may become that is used more or less than
-/// its share.
-constexpr double kBalance = 10;
+/// A mix is made again, with other borders, while an example's share of the surface is off by more
+/// than this, at most so many times in all.
+constexpr double kMixOff = 0.05;
+constexpr int kMixes = 3;
 /// Share of the work that the levels take, about; the assembly takes the rest.
 constexpr double kLevelsDone = 0.8;
 
 PyramidOptions pyramidOptions(const VotingOptions& options) {
   PyramidOptions pyramid{options.size, options.patch, kStride, options.truncation,
                          options.periodic};
-  if (options.kept) pyramid.kept = &*options.kept;
+  if (options.kept) {
+    pyramid.kept = &*options.kept;
+    pyramid.keptOffsets = options.keptOffsets;
+  }
   if (options.guide) pyramid.guide = &*options.guide;
   return pyramid;
 }
@@ -54,6 +59,10 @@ void check(std::span<const DistanceField* const> examples, const VotingOptions& 
   if (!(options.completeness > 0)) fail("`completeness` must be above 0");
   if (options.kept && options.kept->size() != options.size)
     fail("what is kept is given for a result of another size");
+  if (options.kept && !options.keptOffsets.empty()) {
+    for (const std::uint8_t kept : options.kept->values())
+      if (kept > options.keptOffsets.size()) fail("what is kept has no offset");
+  }
   if (options.guide && options.guide->size() != options.size)
     fail("the guide is for a result of another size");
   if (!(options.guideWeight > 0)) fail("the guide's weight must be above 0");
@@ -75,6 +84,8 @@ Array3D<float> welcome(const PyramidLevel& level, const Array3D<float>& target, 
   search.stride = {1, 1, 1};
   search.sourceWeight = nullptr;
   search.allowed = nullptr;
+  search.places = {};
+  search.placeOf = nullptr;
   search.start = previous.position.empty() ? nullptr : &previous;
   search.iterations = search.start ? kReverseIterations : kFirstReverseIterations;
   reverse = nearestNeighborField({target}, {level.source.values}, search, progress);
@@ -85,21 +96,6 @@ Array3D<float> welcome(const PyramidLevel& level, const Array3D<float>& target, 
     weight[p] = static_cast<float>(std::max(1e-6, 1 / (1 + reverse.distance[p] / alpha)));
   });
   return weight;
-}
-
-/// Multiplies the prices of each example's patches, so that one that is used more than its share
-/// becomes dearer: examples that do not go together would otherwise drive each other out.
-void balanceExamples(const PyramidLevel& level, const std::vector<SourcePart>& parts,
-                     const NearestNeighborField& field, Array3D<float>& weight) {
-  const int examples = parts.back().example + 1;
-  std::vector<double> used(examples);
-  for (const Vec3i& p : field.position.values()) ++used[parts[level.source.partOf(p)].example];
-  const double share = static_cast<double>(field.position.count()) / examples;
-  if (weight.empty()) weight = Array3D<float>(level.source.values.size(), 1.0f);
-  parallelForEachCell(weight.size(), [&](const Vec3i& p) {
-    const double use = used[parts[level.source.partOf(p)].example] / share;
-    weight[p] *= static_cast<float>(std::clamp(use * use, 1 / kBalance, kBalance));
-  });
 }
 
 /// Whether there is both solid and air in what is kept; air within a voxel of the surface does not
@@ -115,14 +111,20 @@ bool keepsSurface(const DistanceField& example, const Array3D<std::uint8_t>& kep
   return solid && air;
 }
 
-/// The examples, turned in all ways that are asked for. Where a part of the first with its surface
-/// is kept, that is all that is copied of it.
+/// Whether only what is kept is copied from the first example.
+bool keptAlone(std::span<const DistanceField* const> examples, const VotingOptions& options) {
+  const Vec3i n = examples[0]->size();
+  return options.kept && options.keptOffsets.empty() && max(options.size, n) == n &&
+         keepsSurface(*examples[0], *options.kept);
+}
+
+/// The examples, turned in all ways that are asked for.
 std::vector<SourcePart> sourceParts(std::span<const DistanceField* const> examples,
                                     const VotingOptions& options) {
   std::vector<SourcePart> parts;
   for (std::size_t e = 0; e < examples.size(); ++e) {
     Array3D<std::uint8_t> usable;
-    if (e == 0 && options.kept && keepsSurface(*examples[0], *options.kept)) {
+    if (e == 0 && keptAlone(examples, options)) {
       usable = Array3D<std::uint8_t>(examples[0]->size());
       forEachCell(usable.size(), [&](const Vec3i& p) {
         usable[p] = options.kept->contains(p) && (*options.kept)[p] ? 1 : 0;
@@ -143,11 +145,17 @@ class Voting {
       : options_(options),
         stationary_(options.stationary
                         ? *options.stationary
-                        : stationaryAxes(examples, options.kept ? &*options.kept : nullptr)),
+                        : stationaryAxes(examples, options.kept && options.keptOffsets.empty()
+                                                       ? &*options.kept
+                                                       : nullptr)),
         air_(static_cast<float>(options.truncation)),
         parts_(sourceParts(examples, options)),
         pyramid_(pyramidOptions(options)),
         levels_(options.levels.value_or(randomBlockLevels(*examples[0]))) {
+    if (examples.size() > 1)
+      // Side by side; on top of each other only where height makes no difference.
+      regions_.emplace(examples, options.mix, options.size, Axes{true, true, stationary_.z},
+                       options.periodic, options.seed);
     if (options.rotations && !(stationary_.x && stationary_.y)) {
       throw InputError(
           "`rotations` need an example that is stationary along x and y; say that it is one "
@@ -156,11 +164,44 @@ class Voting {
   }
 
   SynthesisResult run(const Progress& progress) {
+    if (!regions_) return make(progress);
+    SynthesisResult best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int attempt = 0; attempt < kMixes && least > kMixOff; ++attempt) {
+      SynthesisResult made =
+          make(progress.part(static_cast<double>(attempt) / kMixes, (attempt + 1.0) / kMixes));
+      const double off = regions_->correct(surfaceShares(made));
+      if (off >= least) continue;
+      least = off;
+      best = std::move(made);
+    }
+    best.matches = matches_;
+    return best;
+  }
+
+ private:
+  /// Each example's share of a result's surface.
+  std::vector<double> surfaceShares(const SynthesisResult& made) const {
+    std::vector<double> shares(parts_.size() / static_cast<std::size_t>(turns()));
+    double all = 0;
+    const Array3D<float>& values = made.field.values;
+    forEachCell(values.size(), [&](const Vec3i& p) {
+      for (int axis = 0; axis < 3; ++axis) {
+        Vec3i q = p;
+        if (++q[axis] >= values.size()[axis] || (values[p] < 0) == (values[q] < 0)) continue;
+        shares[made.origins[values[p] < 0 ? p : q].example] += 1;
+        all += 1;
+      }
+    });
+    for (double& share : shares) share /= std::max(1.0, all);
+    return shares;
+  }
+
+  SynthesisResult make(const Progress& progress) {
     const Progress levels = progress.part(0, kLevelsDone);
     for (int l = levels_ - 1; l >= 0; --l) {
       PyramidLevel level = makeLevel(parts_, l, pyramid_);
-      sources_ = l == levels_ - 1 ? randomBlocks(level, stationary_, options_.seed)
-                                  : refineSources(level_, sources_, level);
+      sources_ = l == levels_ - 1 ? firstSources(level) : refineSources(level_, sources_, level);
       level_ = std::move(level);
       pinSources(level_, sources_);
       target_ = gather(level_, sources_);
@@ -173,9 +214,56 @@ class Voting {
     return result;
   }
 
- private:
   std::string stage(int l) const {
     return "voting, level " + std::to_string(levels_ - l) + " of " + std::to_string(levels_);
+  }
+
+  /// The number of turned parts that each example has.
+  int turns() const { return options_.rotations ? 4 : 1; }
+
+  /// The example that is wanted around a sample of a level's target, its margins included.
+  int exampleAt(const PyramidLevel& level, int l, const Vec3i& p) const {
+    const Vec3i inside = level.target.wrapped(p);
+    if (!level.target.kept.empty() && level.target.kept[inside]) return 0;
+    Vec3d place;
+    for (int axis = 0; axis < 3; ++axis)
+      place[axis] = std::ldexp(inside[axis] - level.target.margin.before[axis] + 0.5, l) - 0.5;
+    return regions_->at(place);
+  }
+
+  PyramidSources firstSources(const PyramidLevel& level) const {
+    const auto count = static_cast<std::uint32_t>(turns());
+    return randomBlocks(level, stationary_, options_.seed, [&](const Vec3i& p) -> PartRange {
+      if (!regions_) return {0, count};
+      return {count * static_cast<std::uint32_t>(exampleAt(level, levels_ - 1, p)), count};
+    });
+  }
+
+  /// Where the patches of each example begin in the source.
+  std::vector<CellBox> findPlaces() const {
+    const LevelSource& source = level_.source;
+    std::vector<CellBox> places;
+    for (std::size_t part = 0; part < parts_.size(); part += static_cast<std::size_t>(turns())) {
+      CellBox place = source.framed(part);
+      for (std::size_t turned = part + 1; turned < part + static_cast<std::size_t>(turns());
+           ++turned)
+        place.end = max(place.end, source.framed(turned).end);
+      place.end = place.end - level_.patch + Vec3i{1, 1, 1};
+      places.push_back(place);
+    }
+    return places;
+  }
+
+  /// Which example each patch is of, by its middle.
+  Array3D<std::uint16_t> findPlaceOf(int l, const Vec3i& stride) const {
+    const Vec3i last = level_.target.framed() - level_.patch;
+    const Vec3i half{level_.patch.x / 2, level_.patch.y / 2, level_.patch.z / 2};
+    Array3D<std::uint16_t> placeOf(
+        {last.x / stride.x + 1, last.y / stride.y + 1, last.z / stride.z + 1});
+    parallelForEachCell(placeOf.size(), [&](const Vec3i& p) {
+      placeOf[p] = static_cast<std::uint16_t>(exampleAt(level_, l, scaled(p, stride) + half));
+    });
+    return placeOf;
   }
 
   /// How a level's patches are searched for.
@@ -184,12 +272,8 @@ class Voting {
     NearestNeighborFieldOptions search;
     search.patch = level_.patch;
     for (int axis = 0; axis < 3; ++axis) {
-      // A guide says where things are, and parts side by side have no common place along x, nor
-      // along axes on which they differ in size.
-      bool free = stationary_[axis] || guided || options_.kept || (axis == 0 && parts_.size() > 1);
-      for (const CellBox& part : source.parts) {
-        free = free || part.size()[axis] != source.parts[0].size()[axis];
-      }
+      // A guide says where things are. Turned parts are only taken of what is stationary.
+      const bool free = stationary_[axis] || guided || options_.kept;
       search.window[axis] = free ? -1 : placeWindow(level_, axis);
     }
     if (!source.matchable.empty()) search.allowed = &source.matchable;
@@ -217,6 +301,14 @@ class Voting {
     const bool guided = level_.guide.any() && coarse;
     const LevelGuide guide = guided ? weightedGuide() : LevelGuide{};
     NearestNeighborFieldOptions search = searchOf(guided);
+    std::vector<CellBox> places;
+    Array3D<std::uint16_t> placeOf;
+    if (regions_) {
+      places = findPlaces();
+      placeOf = findPlaceOf(l, search.stride);
+      search.places = places;
+      search.placeOf = &placeOf;
+    }
 
     // The finest level only has detail to add, and most of the work.
     const int rounds = l > 0 ? options_.rounds : (2 * options_.rounds + 2) / 3;
@@ -238,11 +330,6 @@ class Voting {
             welcome(level_, target_, options_.completeness, search, reverse, both.part(0, 0.5));
         search.sourceWeight = &weight;
       }
-      if (parts_.back().example > 0 && l > 0) {
-        if (!search.sourceWeight) weight = {};
-        balanceExamples(level_, parts_, previous, weight);
-        search.sourceWeight = &weight;
-      }
       field = nearestNeighborField(channels(level_.source.values, guide.source),
                                    channels(target_, guide.target), search,
                                    both.part(complete ? 0.5 : 0, 1));
@@ -262,6 +349,7 @@ class Voting {
   std::vector<SourcePart> parts_;
   PyramidOptions pyramid_;
   int levels_;
+  std::optional<ExampleRegions> regions_;  ///< of several examples
 
   std::int64_t matches_ = 0;
   PyramidLevel level_;
@@ -284,7 +372,10 @@ SynthesisResult synthesizeByVoting(std::span<const DistanceField* const> example
   if (given.kept) {
     // Only what the first example holds can be kept.
     forEachCell(given.kept->size(), [&](const Vec3i& p) {
-      if (!examples[0]->values.contains(p)) (*given.kept)[p] = 0;
+      std::uint8_t& kept = (*given.kept)[p];
+      const Vec3i offset =
+          kept && !given.keptOffsets.empty() ? given.keptOffsets[kept - 1U] : Vec3i{0, 0, 0};
+      if (!examples[0]->values.contains(p - offset)) kept = 0;
     });
   }
   return Voting(examples, given).run(progress);

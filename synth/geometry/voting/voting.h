@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/array3d.h"
 #include "core/axes.h"
 #include "core/progress.h"
 #include "synth/geometry/synthesize.h"
+#include "synth/geometry/voting/example_regions.h"
 
 namespace exemplar {
 
@@ -30,15 +32,20 @@ struct VotingOptions {
   std::optional<Axes> stationary;  ///< found from the examples by default
   /// Along which axes the result continues at its opposite side, so that copies of it tile space.
   Axes periodic;
-  /// What stays as it is: samples of the result, not 0, that are the (first) example's of the same
-  /// place, to the bit; of the result's size. Only what is kept is copied from that example, so
-  /// what is not kept of it (a hole in a scan) is synthesized; but where only solid or only air is
-  /// kept, all of it is copied from. Samples outside the example are ignored.
+  /// What stays as it is: samples of the result, not 0, that are the (first) example's, to the bit;
+  /// of the result's size. Where v, the sample is the example's at its place less
+  /// `keptOffsets[v - 1]`, or at its place where there are no offsets. Samples outside the example
+  /// are ignored. Of a result that is not larger than the example along any axis the rest is copied
+  /// from what is kept alone, so that what is not kept (a hole in a scan) is synthesized; but where
+  /// only solid or only air is kept, and in larger results, all of the example is copied from.
   std::optional<Array3D<std::uint8_t>> kept;
+  std::vector<Vec3i> keptOffsets;
   /// What the solid should be near to, coarsely: distances in voxels, below 0 where solid is
   /// wanted; of the result's size. Axes that are not stationary are then moved along like others.
   std::optional<Array3D<float>> guide;
   double guideWeight = 1;  ///< of the guide's squared differences among the example's own; > 0
+  /// Of several examples, how they share the result, region by region.
+  MixOptions mix;
   /// Parts may be turned about z by quarter turns. Needs an example that is stationary along x and
   /// y.
   bool rotations = false;
@@ -69,8 +76,9 @@ struct VotingOptions {
 SynthesisResult synthesizeByVoting(const DistanceField& example, const VotingOptions& options,
                                    const Progress& progress = {});
 
-/// The same from 1 to 255 examples, of one voxel size: parts of all of them meet in the result, and
-/// origins say which.
+/// The same from 1 to 255 examples, of one voxel size: each has regions of the result
+/// (`ExampleRegions`), and where regions meet, seams are cut to where both agree best. Origins say
+/// which example a sample is from.
 SynthesisResult synthesizeByVoting(std::span<const DistanceField* const> examples,
                                    const VotingOptions& options, const Progress& progress = {});
 

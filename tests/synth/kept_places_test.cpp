@@ -1,0 +1,214 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/geometry/kept_places.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "core/cells.h"
+#include "synth/geometry/objects/objects.h"
+#include "synth/geometry/voting/voting.h"
+#include "tests/synth/fields.h"
+
+namespace exemplar {
+namespace {
+
+using namespace testing;
+
+using Where = std::function<bool(const Vec3i&)>;
+
+Array3D<std::uint8_t> maskOf(const Vec3i& size, const Where& where) {
+  Array3D<std::uint8_t> mask(size);
+  forEachCell(size, [&](const Vec3i& p) { mask[p] = where(p); });
+  return mask;
+}
+
+DistanceField sampled(const Vec3i& size, const std::function<double(const Vec3d&)>& shape) {
+  DistanceField field = constant(size, 0);
+  forEachCell(size, [&](const Vec3i& p) {
+    field.values[p] = static_cast<float>(std::clamp(shape(cast<double>(p)), -8.0, 8.0));
+  });
+  return field;
+}
+
+double box(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
+  return std::max(
+      {low.x - p.x, p.x - high.x, low.y - p.y, p.y - high.y, low.z - p.z, p.z - high.z});
+}
+
+/// A wall of blocks with a pier at each end, taller at the right one; `axis` is where it runs.
+DistanceField wall(int axis = 0) {
+  Vec3i size{64, 20, 32};
+  if (axis != 0) std::swap(size.x, size[axis]);
+  return sampled(size, [axis](Vec3d p) {
+    if (axis != 0) std::swap(p.x, p[axis]);
+    double d = box(p, {4, 7, 3}, {59, 12, 20});
+    d = std::max(d, 0.8 - std::abs(std::fmod(p.x, 8.0) - 4));  // joints between the blocks
+    d = std::min(d, box(p, {4, 8, 3}, {59, 11, 20}));
+    d = std::min(d, box(p, {4, 5, 3}, {11, 14, 24}));
+    return std::min(d, box(p, {52, 5, 3}, {59, 14, 28}));
+  });
+}
+
+/// A column with a base and a wider cap.
+DistanceField column() {
+  return sampled({28, 28, 64}, [](const Vec3d& p) {
+    const double r = std::hypot(p.x - 13.5, p.y - 13.5);
+    double d = std::max(r - 5 - 0.8 * std::cos(p.z * 0.785), std::abs(p.z - 31.5) - 27);
+    d = std::min(d, box(p, {4, 4, 4}, {23, 23, 10}));
+    return std::min(d, box(p, {5, 5, 53}, {22, 22, 59}));
+  });
+}
+
+TEST(KeptPlaces, EndsStayEndsAndWhatIsBetweenStaysBetween) {
+  const DistanceField example = wall();
+  const Vec3i n = example.size(), size{128, n.y, n.z};
+  struct Case {
+    const char* name;
+    Where where;
+    Vec3i low, high;  ///< where the first and the last kept sample along x go
+  };
+  const Case cases[] = {
+      {"left", [](const Vec3i& p) { return p.x < 32; }, {0, 0, 0}, {31, 0, 0}},
+      {"right", [](const Vec3i& p) { return p.x >= 32; }, {96, 0, 0}, {127, 0, 0}},
+      {"middle", [](const Vec3i& p) { return p.x >= 24 && p.x < 40; }, {56, 0, 0}, {71, 0, 0}},
+      {"both", [](const Vec3i& p) { return p.x < 16 || p.x >= 48; }, {0, 0, 0}, {127, 0, 0}},
+      {"whole", [](const Vec3i&) { return true; }, {0, 0, 0}, {63, 0, 0}}};
+  for (const Case& c : cases) {
+    const Array3D<std::uint8_t> kept = maskOf(n, c.where);
+    const KeptPlaces places = placeKept(example, kept, size, {});
+    Vec3i low = size, high{-1, -1, -1};
+    std::int64_t count = 0, wanted = 0;
+    for (const std::uint8_t k : kept.values()) wanted += k;
+    forEachCell(size, [&](const Vec3i& p) {
+      const std::uint8_t k = places.kept[p];
+      if (!k) return;
+      const Vec3i from = places.offsets.empty() ? p : p - places.offsets[k - 1U];
+      EXPECT_TRUE(kept[from]) << c.name;
+      low = min(low, p);
+      high = max(high, p);
+      ++count;
+    });
+    EXPECT_EQ(count, wanted) << c.name;
+    EXPECT_EQ(low.x, c.low.x) << c.name;
+    EXPECT_EQ(high.x, c.high.x) << c.name;
+    // Along an axis that tiles there are no ends.
+    EXPECT_TRUE(placeKept(example, kept, size, {true, false, false}).offsets.empty()) << c.name;
+  }
+}
+
+TEST(KeptRanges, AreJoinedOverNarrowGaps) {
+  const auto ranges = [](const Where& where) { return keptRanges(maskOf({64, 2, 2}, where), 0); };
+  EXPECT_EQ(ranges([](const Vec3i& p) { return p.x % 8 == 0; }),
+            (std::vector<SliceRange>{{0, 57}}));
+  EXPECT_EQ(ranges([](const Vec3i& p) { return p.x < 10 || (p.x >= 20 && p.y == 1); }),
+            (std::vector<SliceRange>{{0, 10}, {20, 64}}));
+  EXPECT_TRUE(ranges([](const Vec3i&) { return false; }).empty());
+}
+
+/// The runs of solid along an axis, of the slices that hold at least `least` solid samples.
+int runs(const DistanceField& field, int axis, std::int64_t least) {
+  std::vector<std::int64_t> solid(static_cast<std::size_t>(field.size()[axis]));
+  forEachCell(field.size(), [&](const Vec3i& p) {
+    solid[static_cast<std::size_t>(p[axis])] += field.values[p] < 0;
+  });
+  int count = 0;
+  for (std::size_t s = 0; s < solid.size(); ++s)
+    count += solid[s] >= least && (s == 0 || solid[s - 1] < least);
+  return count;
+}
+
+/// The object made twice as long along `axis` around what is kept.
+ObjectResult longer(const DistanceField& example, int axis, const Where& kept,
+                    std::uint64_t seed = 0) {
+  ObjectOptions options;
+  options.size = example.size();
+  options.size[axis] *= 2;
+  options.seed = seed;
+  options.kept = maskOf(example.size(), kept);
+  return synthesizeObject(example, options);
+}
+
+TEST(KeptPlaces, AWallGoesOnAsOneWallWhicheverPartOfItIsKept) {
+  // The piers alone are higher than the wall: slices with solid above it.
+  for (const int axis : {0, 1}) {
+    const DistanceField example = wall(axis);
+    const int n = example.size()[axis];
+    const Where parts[] = {[=](const Vec3i& p) { return p[axis] < n / 2; },
+                           [=](const Vec3i& p) { return p[axis] >= n / 2; },
+                           [=](const Vec3i& p) { return p[axis] < 14 || p[axis] >= n - 14; },
+                           [=](const Vec3i& p) { return p[axis] >= 24 && p[axis] < 40; }};
+    for (const Where& part : parts) {
+      for (std::uint64_t seed = 0; seed < 2; ++seed) {
+        const ObjectResult result = longer(example, axis, part, seed);
+        const DistanceField& made = result.made.field;
+        ASSERT_EQ(made.size()[axis], 2 * n);
+        EXPECT_EQ(runs(made, axis, 1), 1);  // without a gap
+        // Each pier is there once, at its end: their sections are by far the largest.
+        EXPECT_EQ(runs(made, axis, 130), 2);
+        forEachCell(example.size(), [&](const Vec3i& p) {
+          if (!part(p) || p[axis] < 2 || p[axis] >= n - 2) return;
+          // The low one of two ends tells where what is kept has gone; the other is at its end.
+          Vec3i to = p + result.keptOffset;
+          const bool bothEnds = part(Vec3i{0, 0, 0}) && p[axis] >= n / 2;
+          if (bothEnds && part(example.size() - Vec3i{1, 1, 1})) return;
+          ASSERT_TRUE(made.values.contains(to));
+          ASSERT_EQ(made.values[to], example.values[p]);
+        });
+      }
+    }
+  }
+}
+
+TEST(KeptPlaces, AColumnGrowsBetweenItsBaseAndItsCap) {
+  const DistanceField example = column();
+  const Where parts[] = {[](const Vec3i& p) { return p.z < 32; },
+                         [](const Vec3i& p) { return p.z >= 32; }};
+  for (const Where& part : parts) {
+    const DistanceField made = longer(example, 2, part).made.field;
+    ASSERT_EQ(made.size().z, 128);
+    EXPECT_EQ(runs(made, 2, 1), 1);
+    EXPECT_EQ(runs(made, 2, 250), 2);  // base and cap, each once
+  }
+}
+
+TEST(KeptPlaces, WhatDoesNotDockIsLeftToVoting) {
+  const DistanceField example = balls({40, 32, 32}, 5, 3);
+  const ObjectResult result = longer(example, 0, [](const Vec3i& p) { return p.x < 16; });
+  EXPECT_EQ(result.made.field.values.count(), 0u);
+}
+
+TEST(KeptPlaces, VotingGoesOnFromEitherSideAlike) {
+  // Ground that is cut at its sides, kept at one of them: it stays to the bit at its own end.
+  const DistanceField example = ground({40, 40, 28}, 6);
+  const Vec3i n = example.size(), size{72, 40, 28};
+  const auto made = [&](const Where& part) {
+    const KeptPlaces places = placeKept(example, maskOf(n, part), size, {});
+    VotingOptions options;
+    options.size = size;
+    options.rounds = 3;
+    options.kept = places.kept;
+    options.keptOffsets = places.offsets;
+    const SynthesisResult result = synthesizeByVoting(example, options);
+    forEachCell(size, [&](const Vec3i& p) {
+      if (!places.kept[p]) return;
+      const Vec3i from = places.offsets.empty() ? p : p - places.offsets[places.kept[p] - 1U];
+      ASSERT_EQ(result.field.values[p], example.values[from]);
+      ASSERT_EQ(result.origins[p].cell(), from);
+    });
+    return brokenFaces(example, result.field, result.origins, 1.5F);
+  };
+  EXPECT_LT(made([](const Vec3i& p) { return p.x < 20; }), 0.02);
+  EXPECT_LT(made([](const Vec3i& p) { return p.x >= 20; }), 0.02);
+  EXPECT_LT(made([](const Vec3i& p) { return p.x < 12 || p.x >= 28; }), 0.02);
+  EXPECT_LT(made([](const Vec3i& p) { return p.x >= 14 && p.x < 26; }), 0.02);
+}
+
+}  // namespace
+}  // namespace exemplar
