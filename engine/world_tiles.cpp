@@ -43,26 +43,45 @@ std::optional<std::int64_t> wholeNumber(const std::string& text) {
 /// end first, as floats, in which files hold them.
 using RimEdge = std::array<float, 4>;
 
-/// The edges of one triangle alone that lie on the plane `at` of an axis.
-std::vector<RimEdge> rimEdges(const TriangleMesh& mesh, int axis, double at) {
-  std::map<RimEdge, int> count;
+/// The edges of one triangle alone on a tile's four sides. One on an upright line where four tiles
+/// meet can go on in any of the three others, so these are kept apart.
+struct Rim {
+  std::array<std::vector<RimEdge>, 4> sides;    ///< low and high along x, then along y
+  std::array<std::vector<RimEdge>, 4> corners;  ///< low x low y, high x low y, low high, high high
+};
+
+Rim rimOf(const TriangleMesh& mesh, const Vec2f& low, const Vec2f& high) {
+  std::array<std::map<RimEdge, int>, 4> sides, corners;
+  const auto at = [](const Vec3d& p, int axis) { return static_cast<float>(p[axis]); };
   for (const auto& triangle : mesh.triangles) {
     for (int corner = 0; corner < 3; ++corner) {
       const Vec3d& a = mesh.positions[triangle[corner]];
       const Vec3d& b = mesh.positions[triangle[(corner + 1) % 3]];
-      if (static_cast<float>(a[axis]) != static_cast<float>(at) ||
-          static_cast<float>(b[axis]) != static_cast<float>(at))
-        continue;
-      std::array<float, 2> p{static_cast<float>(a[1 - axis]), static_cast<float>(a.z)};
-      std::array<float, 2> q{static_cast<float>(b[1 - axis]), static_cast<float>(b.z)};
+      std::array<int, 2> side{-1, -1};  // for each axis, 0 for the low one, 1 for the high one
+      for (int axis = 0; axis < 2; ++axis) {
+        if (at(a, axis) != at(b, axis)) continue;
+        const float lowest = axis == 0 ? low.x : low.y, highest = axis == 0 ? high.x : high.y;
+        if (at(a, axis) == lowest) side[axis] = 0;
+        if (at(a, axis) == highest) side[axis] = 1;
+      }
+      if (side[0] < 0 && side[1] < 0) continue;
+      const bool upright = side[0] >= 0 && side[1] >= 0;
+      const int axis = side[0] >= 0 ? 0 : 1;
+      std::array<float, 2> p{upright ? 0 : at(a, 1 - axis), at(a, 2)};
+      std::array<float, 2> q{upright ? 0 : at(b, 1 - axis), at(b, 2)};
       if (q < p) std::swap(p, q);
+      auto& count = upright ? corners[side[0] + 2 * side[1]] : sides[2 * axis + side[axis]];
       ++count[{p[0], p[1], q[0], q[1]}];
     }
   }
-  std::vector<RimEdge> edges;
-  for (const auto& [edge, triangles] : count)
-    if (triangles % 2 == 1) edges.push_back(edge);
-  return edges;
+  Rim rim;
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (const auto& [edge, triangles] : sides[k])
+      if (triangles % 2 == 1) rim.sides[k].push_back(edge);
+    for (const auto& [edge, triangles] : corners[k])
+      if (triangles % 2 == 1) rim.corners[k].push_back(edge);
+  }
+  return rim;
 }
 
 /// How many edges are in one list alone; both ascending.
@@ -70,6 +89,37 @@ std::int64_t unmatchedEdges(const std::vector<RimEdge>& a, const std::vector<Rim
   std::vector<RimEdge> alone;
   std::ranges::set_symmetric_difference(a, b, std::back_inserter(alone));
   return static_cast<std::int64_t>(alone.size());
+}
+
+/// Compares the rims of neighboring tiles: each edge is there in an even number of them.
+void matchRims(const std::map<PlanePoint, Rim>& rims, CheckedTiles& found) {
+  for (const auto& [tile, rim] : rims) {
+    for (int axis = 0; axis < 2; ++axis) {
+      PlanePoint next = tile;
+      ++next[axis];
+      const auto beside = rims.find(next);
+      if (beside == rims.end()) continue;
+      const auto& here = rim.sides[2 * axis + 1];
+      const auto& there = beside->second.sides[2 * axis];
+      found.rimEdges += static_cast<std::int64_t>(here.size() + there.size());
+      found.unmatched += unmatchedEdges(here, there);
+    }
+    // Where this tile and three others meet.
+    std::map<RimEdge, int> tiles;
+    int meeting = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+      const auto around = rims.find({tile.x + 1 - corner % 2, tile.y + 1 - corner / 2});
+      if (around == rims.end()) continue;
+      ++meeting;
+      for (const RimEdge& edge : around->second.corners[static_cast<std::size_t>(corner)])
+        ++tiles[edge];
+    }
+    if (meeting < 4) continue;
+    for (const auto& [edge, count] : tiles) {
+      found.rimEdges += count;
+      found.unmatched += count % 2;
+    }
+  }
 }
 
 }  // namespace
@@ -193,7 +243,7 @@ CheckedTiles checkTiles(const World& world, const PlaneBox& tiles, const CheckOp
   modelSettings().apply(world.file().settings, settings);
   ViolationOptions rules;
   rules.adjacency = adjacencyOptions(settings);
-  std::map<PlanePoint, std::array<std::vector<RimEdge>, 4>> rims;  // low and high along x and y
+  std::map<PlanePoint, Rim> rims;
   std::string hashes;
   const std::vector<PlanePoint> all = tilesOf(tiles);
   const double side = world.file().tile;
@@ -228,25 +278,13 @@ CheckedTiles checkTiles(const World& world, const PlaneBox& tiles, const CheckOp
       if (ending != ".glb") continue;
       const TriangleMesh mesh = readMesh(path);
       const LabelGrid& grid = result.labels();
-      for (int axis = 0; axis < 2; ++axis) {
-        const double low = grid.origin[axis];
-        rims[tile][2 * axis] = rimEdges(mesh, axis, low);
-        rims[tile][2 * axis + 1] = rimEdges(mesh, axis, low + side * grid.cellSize[axis]);
-      }
+      const Vec3d high = grid.origin + side * grid.cellSize;
+      rims[tile] =
+          rimOf(mesh, {static_cast<float>(grid.origin.x), static_cast<float>(grid.origin.y)},
+                {static_cast<float>(high.x), static_cast<float>(high.y)});
     }
   }
-  for (const auto& [tile, edges] : rims) {
-    for (int axis = 0; axis < 2; ++axis) {
-      PlanePoint next = tile;
-      ++next[axis];
-      const auto beside = rims.find(next);
-      if (beside == rims.end()) continue;
-      const auto& here = edges[2 * axis + 1];
-      const auto& there = beside->second[2 * axis];
-      found.rimEdges += static_cast<std::int64_t>(here.size() + there.size());
-      found.unmatched += unmatchedEdges(here, there);
-    }
-  }
+  matchRims(rims, found);
   found.hash = contentHash(hashes);
   return found;
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -89,9 +90,11 @@ void expectSameLevels(const Grid<float>& a, const Grid<float>& b) {
   }
 }
 
+/// Where a cell drains to; outside of every map where that is nowhere.
 Pixel downstream(const Drainage& drainage, Pixel at) {
-  const Pixel step = kNeighbors[drainage.directions(at.x, at.y)];
-  return {at.x + step.x, at.y + step.y};
+  const std::uint8_t direction = drainage.directions(at.x, at.y);
+  if (direction >= std::size(kNeighbors)) return {-1, -1};
+  return {at.x + kNeighbors[direction].x, at.y + kNeighbors[direction].y};
 }
 
 TEST(Drainage, LevelsAreThoseOfRelaxation) {
