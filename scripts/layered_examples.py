@@ -146,11 +146,11 @@ def make_pictures(folder, exemplar):
     beside(f"{folder}/layered_paint.png", f"{folder}/sketch.png", f"{folder}/painted_l.png",
            f"{folder}/painted.png")
 
-    for scene in ("minerals", "lichen"):
-        run("synth", f"{scene}.toml", "--engine", "layered", "-o", f"more_{scene}.vdb", "--stats",
-            f"more_{scene}.json")
-        run("render", f"{scene}.toml", f"more_{scene}.vdb", "-o", f"layered_volume_{scene}.png",
-            "--size", "420x360")
+    for scene, size in (("minerals", "96,96,64"), ("lichen", "64,64,64")):
+        run("synth", scene, "--engine", "layered", "--size", size, "-o", f"more_{scene}.vdb",
+            "--stats", f"more_{scene}.json")
+        run("render", scene, f"more_{scene}.vdb", "-o", f"layered_volume_{scene}.png", "--size",
+            "420x360")
 
 
 if __name__ == "__main__":
