@@ -10,6 +10,7 @@
 
 #include "core/cells.h"
 #include "core/error.h"
+#include "maps/fill_smoothly.h"
 #include "measure/layers.h"
 #include "synth/layered/regions.h"
 #include "synth/layered/texture_by_numbers.h"
