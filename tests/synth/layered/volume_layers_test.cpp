@@ -64,9 +64,13 @@ TEST(LayersInSpace, KeepVolumesNestingAndLikeness) {
 }
 
 TEST(LayersInSpace, ACrustStaysAtTheSurface) {
-  // Only the outermost two cells of the upper half of each ball.
-  LayerVolume example = balls(40, 7, 1);
-  for (std::uint8_t& k : example.values()) k = std::min<std::uint8_t>(k, 2);
+  // One large ball, whose middle no patch of its boundary reaches, with squares of crust on its
+  // upper half, two cells thick.
+  LayerVolume example(Vec3i{44, 44, 44}, 1);
+  forEachCell(example.size(), [&](const Vec3i& p) {
+    const Vec3i d = p - Vec3i{22, 22, 22};
+    if (d.x * d.x + d.y * d.y + d.z * d.z <= 18 * 18) example[p] = 2;
+  });
   const auto depthsOf = [](const LayerVolume& layers) {
     Shape outside(layers.size());
     for (std::size_t p = 0; p < layers.count(); ++p) outside.data()[p] = layers.data()[p] < 2;
@@ -75,9 +79,10 @@ TEST(LayersInSpace, ACrustStaysAtTheSurface) {
   const Array3D<float> depths = depthsOf(example);
   forEachCell(example.size(), [&](const Vec3i& p) {
     const Vec3i up = example.clamped(p + Vec3i{0, 0, 2});
-    if (depths[p] > 0 && depths[p] <= 2 && example[up] == 1) example[p] = 3;
+    if (depths[p] > 0 && depths[p] <= 2 && example[up] == 1 && (p.x / 5 + p.y / 5) % 2 == 0)
+      example[p] = 3;
   });
-  const LayerVolume made = synthesizeLayers(example, {40, 40, 40}, volumeOptions()).map;
+  const LayerVolume made = synthesizeLayers(example, {44, 44, 44}, volumeOptions()).map;
   const Array3D<float> madeDepths = depthsOf(made);
   std::int64_t crust = 0;
   for (std::size_t p = 0; p < made.count(); ++p) {
