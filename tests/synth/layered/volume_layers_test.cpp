@@ -114,6 +114,43 @@ TEST(LayersInSpace, AFlatVolumeIsAPicture) {
   EXPECT_EQ(solid.cells(), 729);
 }
 
+TEST(LayersInSpace, NearestPatchesAreThoseOfAFullSearch) {
+  const LayerVolume example = balls(24, 4, 2), result = balls(26, 3.5, 3);
+  const auto planesOf = [](const LayerVolume& layers) {
+    return std::vector<Shape>{layerShape(layers, 2), layerShape(layers, 3)};
+  };
+  const std::vector<Shape> theirs = planesOf(example), ours = planesOf(result);
+  std::vector<Vec3i> few = boundaryOf(ours[0], true);
+  few.resize(40);
+  // One plane, and a second at half weight; sides with blocks of a byte, and without.
+  for (const auto& [joint, side] : {std::pair{false, 9}, {true, 9}, {false, 21}}) {
+    ShapePlanes of(ours[0]), among(theirs[0]);
+    if (joint) {
+      of.shapes.push_back(&ours[1]);
+      among.shapes.push_back(&theirs[1]);
+    }
+    const BoundaryPatches set(of, few, side, 1, true);
+    const BoundaryPatches examples(among, boundaryOf(theirs[0], true), side, 4, true);
+    const NearestPatches nearest(examples);
+    for (std::size_t s = 0; s < set.count(); s += 7) {
+      std::vector<std::pair<int, std::uint32_t>> all;
+      for (std::uint32_t e = 0; e < examples.count(); ++e) {
+        int least = 1 << 30;
+        for (int t = 0; t < 4; ++t) least = std::min(least, patchDistance(set, s, examples, e, t));
+        all.emplace_back(least, e);
+      }
+      std::ranges::sort(all);
+      std::vector<BoundaryMatch> found;
+      nearest.find(set, s, 8, {}, found);
+      ASSERT_EQ(found.size(), 8u);
+      for (std::size_t n = 0; n < 8; ++n) {
+        EXPECT_EQ(found[n].distance, all[n].first) << joint << side;
+        EXPECT_EQ(found[n].patch, all[n].second) << joint << side;
+      }
+    }
+  }
+}
+
 TEST(LayersInSpace, DistancesAreThoseToTheNearestCells) {
   const Random random(3);
   for (const bool wraps : {false, true}) {
