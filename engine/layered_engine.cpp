@@ -13,6 +13,7 @@
 #include "engine/engines.h"
 #include "engine/layered_settings.h"
 #include "engine/words.h"
+#include "maps/fill_smoothly.h"
 #include "synth/layered/regions.h"
 
 namespace exemplar {

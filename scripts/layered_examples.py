@@ -2,7 +2,8 @@
 """Makes the examples of docs/layered.md (procedural textures of layers, for anyone to use) and its
 pictures.
 
-    scripts/layered_examples.py FOLDER            rust.png, lichen.png and paint.png, 256 x 256 each
+    scripts/layered_examples.py FOLDER            rust.png, lichen.png, paint.png and heights.png (16
+                                                  bits), 256 x 256 each
     scripts/layered_examples.py FOLDER EXEMPLAR   and, by that command, the pictures and figures
 
 Needs numpy; the pictures need Pillow.
@@ -81,9 +82,17 @@ def paint(n=256):
     return image
 
 
+def heights(n=256):
+    """Ridged hills, as heights from 0 to 1."""
+    hills = fractal((n, n), 1.8, 41) - 0.7 * np.abs(fractal((n, n), 1.7, 42))
+    return (hills - hills.min()) / (hills.max() - hills.min())
+
+
 def write_png(path, image):
-    pixels = (np.clip(image, 0, 1) * 255 + 0.5).astype(np.uint8)
-    height, width, _ = pixels.shape
+    """Writes colors in 8 bits, or what has no colors in 16."""
+    deep = image.ndim == 2
+    pixels = (np.clip(image, 0, 1) * (65535 if deep else 255) + 0.5).astype(">u2" if deep else "u1")
+    height, width = pixels.shape[:2]
     rows = b"".join(b"\0" + pixels[y].tobytes() for y in range(height))
 
     def chunk(kind, data):
@@ -92,7 +101,8 @@ def write_png(path, image):
 
     with open(path, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n"
-                   + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+                   + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 16 if deep else 8,
+                                                0 if deep else 2, 0, 0, 0))
                    + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
 
 
@@ -100,7 +110,13 @@ def beside(path, *pictures):
     """Pictures of one height in a row, four pixels apart."""
     from PIL import Image
 
-    images = [Image.open(p).convert("RGB") for p in pictures]
+    def colored(path):
+        image = Image.open(path)
+        if image.mode.startswith("I"):  # 16 bits
+            image = Image.fromarray((np.asarray(image) // 257).astype(np.uint8))
+        return image.convert("RGB")
+
+    images = [colored(p) for p in pictures]
     height = max(image.height for image in images)
     row = Image.new("RGB", (sum(i.width + 4 for i in images) - 4, height), "white")
     left = 0
@@ -114,14 +130,14 @@ def make_pictures(folder, exemplar):
     def run(*arguments):
         subprocess.run([exemplar, *arguments], cwd=folder, check=True)
 
-    def synth(name, result, *more):
-        run("synth", f"{name}.png", "--engine", "layered", "--layers", "3", "-o", f"{result}.png",
-            "--write-layers", f"{result}_l.png", "--stats", f"{result}.json", *more)
+    def synth(name, result, *more, layers=3):
+        run("synth", f"{name}.png", "--engine", "layered", "--layers", str(layers), "-o",
+            f"{result}.png", "--write-layers", f"{result}_l.png", "--stats", f"{result}.json", *more)
         figures = json.load(open(f"{folder}/{result}.json"))["layers"]
         print(result, {key: round(value, 3) for key, value in figures.items()})
 
-    for name in ("rust", "lichen", "paint"):
-        synth(name, f"more_{name}", "--size", "384,256,1")
+    for name, layers in (("rust", 3), ("lichen", 3), ("paint", 3), ("heights", 5)):
+        synth(name, f"more_{name}", "--size", "384,256,1", layers=layers)
         beside(f"{folder}/layered_{name}.png", f"{folder}/{name}.png",
                f"{folder}/more_{name}_l_example.png", f"{folder}/more_{name}_l.png",
                f"{folder}/more_{name}.png")
@@ -143,20 +159,20 @@ def make_pictures(folder, exemplar):
     sketch = np.repeat((np.abs(radius - 80) < 22)[..., None] * 1.0, 3, axis=2)
     write_png(f"{folder}/sketch.png", sketch)
     synth("rust", "painted", "--size", "384,256,1", "--paint", "sketch.png")
-    beside(f"{folder}/layered_paint.png", f"{folder}/sketch.png", f"{folder}/painted_l.png",
+    beside(f"{folder}/layered_painted.png", f"{folder}/sketch.png", f"{folder}/painted_l.png",
            f"{folder}/painted.png")
 
-    for scene in ("minerals", "lichen"):
-        run("synth", f"{scene}.toml", "--engine", "layered", "-o", f"more_{scene}.vdb", "--stats",
-            f"more_{scene}.json")
-        run("render", f"{scene}.toml", f"more_{scene}.vdb", "-o", f"layered_volume_{scene}.png",
-            "--size", "420x360")
+    for scene, size in (("minerals", "96,96,64"), ("lichen", "64,64,64")):
+        run("synth", scene, "--engine", "layered", "--size", size, "-o", f"more_{scene}.vdb",
+            "--stats", f"more_{scene}.json")
+        run("render", scene, f"more_{scene}.vdb", "-o", f"layered_volume_{scene}.png", "--size",
+            "420x360")
 
 
 if __name__ == "__main__":
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    for make in (rust, lichen, paint):
+    for make in (rust, lichen, paint, heights):
         write_png(f"{sys.argv[1]}/{make.__name__}.png", make())
     if len(sys.argv) == 3:
         make_pictures(sys.argv[1], sys.argv[2])

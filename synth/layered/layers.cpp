@@ -13,8 +13,8 @@
 #include "core/cells.h"
 #include "core/random_streams.h"
 #include "maps/distance_transform.h"
+#include "maps/fill_smoothly.h"
 #include "maps/halved.h"
-#include "synth/layered/texture_by_numbers.h"
 
 namespace exemplar {
 namespace {
@@ -121,7 +121,7 @@ Shape randomShape(const Vec3i& size, double share, const Random& random) {
 /// The same in a hole, where noise leans toward what lies around it; elsewhere what is given.
 Shape randomShapeIn(const Shape& hole, const Shape& given, std::int64_t wanted,
                     const Random& random) {
-  Planes around(1, Array3D<float>(given.size()));
+  std::vector<Array3D<float>> around(1, Array3D<float>(given.size()));
   Array3D<float> noise(given.size());
   for (std::size_t p = 0; p < noise.count(); ++p) {
     around[0].data()[p] = given.data()[p];

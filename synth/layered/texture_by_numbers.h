@@ -95,8 +95,4 @@ GuidedTexture synthesizeTexture(const Map& example, Planes exampleGuide, Planes 
 /// The planes of a picture as boxes that are one cell thick.
 Planes planesOf(const MapLayer& picture);
 
-/// Fills the hole of each plane smoothly from around it: each cell of a coarser resolution is the
-/// mean of those of its finer ones that are known.
-void fillSmoothly(Planes& planes, const Shape& hole);
-
 }  // namespace exemplar

@@ -10,9 +10,11 @@
 
 #include "core/cells.h"
 #include "core/error.h"
+#include "maps/fill_smoothly.h"
 #include "measure/layers.h"
 #include "synth/layered/regions.h"
 #include "synth/layered/texture_by_numbers.h"
+#include "tests/progress_checks.h"
 #include "tests/synth/layered/layer_samples.h"
 #include "tests/threads.h"
 
@@ -71,10 +73,12 @@ TEST(SynthesizeLayers, FillsAHoleAndNothingElse) {
 TEST(SynthesizeLayers, GoesOnFromWhatLiesAroundAHole) {
   const LayerVolume example = noiseLayers(200, 160, 2, 2);
   std::int64_t beside = 0, alike = 0;
-  for (const Vec3i& corner : {Vec3i{30, 30, 0}, Vec3i{100, 40, 0}, Vec3i{60, 90, 0}}) {
+  for (const Vec3i& corner : {Vec3i{28, 8, 0}, Vec3i{28, 90, 0}, Vec3i{128, 50, 0}}) {
     const Shape hole = squareHole(example.size(), corner, 44);
     LayerOptions options;
     options.hole = &hole;
+    // Where it begins, nearly.
+    options.shape.levels = options.shape.iterations = 1;
     const LayerVolume made = synthesizeLayers(example, example.size(), options).map;
     forEachEdgeCell(hole, true, false, [&](const Vec3i& p, std::size_t at) {
       forEachBeside(hole.size(), false, p, at, [&](std::size_t other) {
@@ -84,8 +88,8 @@ TEST(SynthesizeLayers, GoesOnFromWhatLiesAroundAHole) {
       });
     });
   }
-  // Of two cells beside each other 95 % are of one layer in the example; of two at random half.
-  EXPECT_GT(static_cast<double>(alike), 0.85 * static_cast<double>(beside));
+  // Of neighbors across the edge .92; of a start by chance alone .79.
+  EXPECT_GT(static_cast<double>(alike), 0.87 * static_cast<double>(beside));
 }
 
 TEST(SynthesizeTexture, KeepsWhatLiesOutsideAHoleToTheBit) {
@@ -246,6 +250,24 @@ TEST(SynthesizeRegions, KeepsApartWhatIsApart) {
   EXPECT_LT(touching(made.map), 0.08);
   const auto again = [&] { return synthesizeRegions(example, {96, 90, 1}, {}).map; };
   EXPECT_EQ(testing::onThreads(1, again), testing::onThreads(8, again));
+}
+
+TEST(LayeredSynthesis, ReportsAndHearsCancellationInEachStep) {
+  const LayerVolume layers = noiseLayers(72, 64, 3, 2);
+  const Map map = pictureOf(layers);
+  testing::expectReportsAndStops(2, [&](const Progress& progress) {
+    decomposeTexture(map.layers.front(), {.layers = 3, .neighborhood = 5}, 0, progress);
+  });
+  testing::expectReportsAndStops(3, [&](const Progress& progress) {
+    synthesizeRegions(layers, {64, 64, 1}, {}, progress);
+  });
+  for (const TextureMethod method : {TextureMethod::Patches, TextureMethod::Classic}) {
+    testing::expectReportsAndStops(2, [&](const Progress& progress) {
+      const ControlMaps control = controlMaps(layers, false, layers, true, progress.part(0, 0.1));
+      synthesizeTexture(map, {control.example}, {control.result}, {}, {.method = method},
+                        progress.part(0.1, 1));
+    });
+  }
 }
 
 TEST(FillSmoothly, KeepsWhatIsKnownAndStaysBetween) {

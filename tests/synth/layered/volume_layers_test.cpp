@@ -64,9 +64,13 @@ TEST(LayersInSpace, KeepVolumesNestingAndLikeness) {
 }
 
 TEST(LayersInSpace, ACrustStaysAtTheSurface) {
-  // Only the outermost two cells of the upper half of each ball.
-  LayerVolume example = balls(40, 7, 1);
-  for (std::uint8_t& k : example.values()) k = std::min<std::uint8_t>(k, 2);
+  // One large ball, whose middle no patch of its boundary reaches, with squares of crust on its
+  // upper half, two cells thick.
+  LayerVolume example(Vec3i{44, 44, 44}, 1);
+  forEachCell(example.size(), [&](const Vec3i& p) {
+    const Vec3i d = p - Vec3i{22, 22, 22};
+    if (d.x * d.x + d.y * d.y + d.z * d.z <= 18 * 18) example[p] = 2;
+  });
   const auto depthsOf = [](const LayerVolume& layers) {
     Shape outside(layers.size());
     for (std::size_t p = 0; p < layers.count(); ++p) outside.data()[p] = layers.data()[p] < 2;
@@ -75,9 +79,10 @@ TEST(LayersInSpace, ACrustStaysAtTheSurface) {
   const Array3D<float> depths = depthsOf(example);
   forEachCell(example.size(), [&](const Vec3i& p) {
     const Vec3i up = example.clamped(p + Vec3i{0, 0, 2});
-    if (depths[p] > 0 && depths[p] <= 2 && example[up] == 1) example[p] = 3;
+    if (depths[p] > 0 && depths[p] <= 2 && example[up] == 1 && (p.x / 5 + p.y / 5) % 2 == 0)
+      example[p] = 3;
   });
-  const LayerVolume made = synthesizeLayers(example, {40, 40, 40}, volumeOptions()).map;
+  const LayerVolume made = synthesizeLayers(example, {44, 44, 44}, volumeOptions()).map;
   const Array3D<float> madeDepths = depthsOf(made);
   std::int64_t crust = 0;
   for (std::size_t p = 0; p < made.count(); ++p) {
@@ -107,6 +112,43 @@ TEST(LayersInSpace, AFlatVolumeIsAPicture) {
   const BoundaryPatches solid(layerShape(cube, 2), boundaryOf(layerShape(cube, 2), true), 9, 4,
                               true);
   EXPECT_EQ(solid.cells(), 729);
+}
+
+TEST(LayersInSpace, NearestPatchesAreThoseOfAFullSearch) {
+  const LayerVolume example = balls(24, 4, 2), result = balls(26, 3.5, 3);
+  const auto planesOf = [](const LayerVolume& layers) {
+    return std::vector<Shape>{layerShape(layers, 2), layerShape(layers, 3)};
+  };
+  const std::vector<Shape> theirs = planesOf(example), ours = planesOf(result);
+  std::vector<Vec3i> few = boundaryOf(ours[0], true);
+  few.resize(40);
+  // One plane, and a second at half weight; sides with blocks of a byte, and without.
+  for (const auto& [joint, side] : {std::pair{false, 9}, {true, 9}, {false, 21}}) {
+    ShapePlanes of(ours[0]), among(theirs[0]);
+    if (joint) {
+      of.shapes.push_back(&ours[1]);
+      among.shapes.push_back(&theirs[1]);
+    }
+    const BoundaryPatches set(of, few, side, 1, true);
+    const BoundaryPatches examples(among, boundaryOf(theirs[0], true), side, 4, true);
+    const NearestPatches nearest(examples);
+    for (std::size_t s = 0; s < set.count(); s += 7) {
+      std::vector<std::pair<int, std::uint32_t>> all;
+      for (std::uint32_t e = 0; e < examples.count(); ++e) {
+        int least = 1 << 30;
+        for (int t = 0; t < 4; ++t) least = std::min(least, patchDistance(set, s, examples, e, t));
+        all.emplace_back(least, e);
+      }
+      std::ranges::sort(all);
+      std::vector<BoundaryMatch> found;
+      nearest.find(set, s, 8, {}, found);
+      ASSERT_EQ(found.size(), 8u);
+      for (std::size_t n = 0; n < 8; ++n) {
+        EXPECT_EQ(found[n].distance, all[n].first) << joint << side;
+        EXPECT_EQ(found[n].patch, all[n].second) << joint << side;
+      }
+    }
+  }
 }
 
 TEST(LayersInSpace, DistancesAreThoseToTheNearestCells) {
