@@ -196,8 +196,11 @@ class Outlets {
     });
     kept_.assign(level.size(), 0);
     standing_.assign(level.size(), least_);
-    double left = 0;
-    std::size_t next = options_.kept.size();
+    double all = 0, most = 0;
+    for (const auto& hollow : hollows) all += static_cast<double>(hollow.size());
+    for (const double share : options_.kept) most += share * static_cast<double>(level.size());
+    double left = all <= most ? most : 0;
+    std::size_t next = all <= most ? 0 : options_.kept.size();
     for (const std::vector<std::uint32_t>& hollow : hollows) {
       for (; next > sizeOf(hollow); --next)
         left += options_.kept[next - 1] * static_cast<double>(level.size());

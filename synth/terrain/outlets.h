@@ -25,7 +25,7 @@ struct OutletOptions {
   /// banks, which keep their shape; > 0; infinite: cuts are one sample wide.
   double bank = 1;
   /// Hollows that may stay: as shares of the samples, by size, as `Hollows::bySize` has them; what
-  /// one size does not need is left to smaller ones.
+  /// one size does not need is left to smaller ones. Where they are no more in all, all stay.
   std::span<const double> kept;
   bool wrapsX = false, wrapsY = false;
 };

@@ -45,8 +45,8 @@ constexpr double kMostStrength = 1.5;
 constexpr double kFillBefore = 0.2, kFillAtLast = 0.5;
 /// From which share of the samples in hollows on they are the land's own.
 constexpr double kNaturalHollows = 0.02;
-/// How many more of them a result may have.
-constexpr double kMoreHollows = 1.1;
+/// How many more of them a result may have: to fill or cut what is land changes its slopes.
+constexpr double kMoreHollows = 1.5;
 /// The least lakes of a result, samples.
 constexpr std::size_t kLeastLake = 24;
 /// How much beds of cuts fall beside the larger streams of the example.
