@@ -5,8 +5,11 @@
 // finished is written at once and never made again.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "apps/command.h"
 #include "apps/help.h"
@@ -48,6 +51,30 @@ void say(const ComparedRun& run, Terminal& terminal) {
   terminal.say(run.engine, text + (run.again ? " (made before)" : ""));
 }
 
+/// Likeness against novelty: each engine's means, and how many of its results have both.
+void sayFrontier(const std::vector<ComparedRun>& runs, Terminal& terminal) {
+  std::vector<std::string> engines;
+  for (const ComparedRun& run : runs)
+    if (std::ranges::find(engines, run.engine) == engines.end()) engines.push_back(run.engine);
+  for (const std::string& engine : engines) {
+    double likeness = 0, novelty = 0;
+    int results = 0, both = 0;
+    for (const ComparedRun& run : runs) {
+      if (run.engine != engine || !run.multiscale || !run.rolled) continue;
+      likeness += *run.multiscale;
+      novelty += *run.rolled;
+      both += run.frontier == "new_and_alike";
+      ++results;
+    }
+    if (results == 0) continue;
+    terminal.say("frontier", engine + ": likeness " + readable(likeness / results) +
+                                 " (multiscale; 1 is a fresh sample), novelty " +
+                                 readable(novelty / results) +
+                                 " (rolled distance; 0 is a copy): " + std::to_string(both) +
+                                 " of " + std::to_string(results) + " new and alike");
+  }
+}
+
 void compareEngines(const Options& options, Terminal& terminal) {
   ComparisonOptions comparison;
   for (const std::string& engine : options.engines) {
@@ -79,9 +106,15 @@ void compareEngines(const Options& options, Terminal& terminal) {
   const Example example = readExample(options.example, reading, terminal.progress().part(0, 0.1));
   terminal.say("example", options.example + ": " + example.description);
   for (const std::string& warning : example.warnings) terminal.warn(warning);
+  std::vector<ComparedRun> runs;
   compare(
-      example, comparison, [&](const ComparedRun& run) { say(run, terminal); },
+      example, comparison,
+      [&](const ComparedRun& run) {
+        say(run, terminal);
+        runs.push_back(run);
+      },
       terminal.progress().part(0.1, 1));
+  sayFrontier(runs, terminal);
   for (const std::string& warning : ofPictures) terminal.warn(warning);
   for (const auto& [label, name] :
        {std::pair{"figures", "compare.json"}, {"report", "report.html"}}) {

@@ -99,7 +99,7 @@ void checkOutputs(const Options& options, Form form, int lods) {
   Paths inputs(options.examples.begin(), options.examples.end());
   inputs.insert(inputs.end(), options.with.begin(), options.with.end());
   for (const char* key :
-       {"keep", "guide", "on", "mask", "base", "detail-of", "layers-from", "paint", "inpaint"})
+       {"keep", "guide", "mix-map", "on", "mask", "base", "detail-of", "layers-from", "paint", "inpaint"})
     if (options.settings.has(key)) inputs.emplace_back(options.settings.text(key));
   std::vector<std::pair<std::string, std::string>> channels;
   if (form == Form::Map) channels = readingOf(options.settings, form).channels;

@@ -416,6 +416,9 @@ ComparedRun readable(const Json& run, bool again) {
   result.coverage = figure("likeness", "coverage");
   result.multiscale = figure("likeness", "multiscale");
   result.rolled = figure("novelty", "distance_to_rolled_example");
+  if (const auto frontier = figures.find("frontier");
+      frontier != figures.end() && frontier->value("kind", Json()).is_string())
+    result.frontier = frontier->at("kind").get<std::string>();
   if (const auto doubts = figures.find("doubts"); doubts != figures.end())
     for (const auto& [name, doubted] : doubts->items())
       if (doubted.is_boolean() && doubted.get<bool>()) result.doubts.push_back(name);

@@ -64,6 +64,7 @@ struct ComparedRun {
   double seconds = 0;
   std::optional<double> lpDense, coverage;
   std::optional<double> multiscale, rolled;  ///< likeness at several scales, rolled distance
+  std::string frontier;                      ///< `frontierName` of the two; empty without them
   std::vector<std::string> doubts;           ///< what to be warned of
   bool again = false;                        ///< it was made before
 };

@@ -17,6 +17,8 @@ std::string remedyOf(Doubt doubt) {
     case Doubt::Pieces:
     case Doubt::Floating:
       return "try another `seed`, or let parts move along fewer axes (`stationary`)";
+    case Doubt::Repeated:
+      return "try another `seed`, or a smaller `scale`";
     case Doubt::Occupancy:
       return "try another `seed`, or another `scale`";
     case Doubt::Sliced:
@@ -36,10 +38,14 @@ void addDoubts(std::span<const Example> examples, const Request& request, Result
   result.statistics.emplace_back("pieces", signs.wholeness.pieces);
   result.statistics.emplace_back("pieces_example", signs.wholeness.examplePieces);
   result.statistics.emplace_back("floating", signs.wholeness.floatingShare);
+  result.statistics.emplace_back("landmarks_repeated", signs.landmarks.repeated());
   result.statistics.emplace_back("sliced", signs.wholeness.slicedShare);
   // Geometry synthesis of an object says so itself, and why.
   const bool nearlySaid = std::ranges::any_of(result.warnings, [](const std::string& warning) {
     return warning.starts_with("the result is nearly the example");
+  });
+  const bool repeated = std::ranges::any_of(result.warnings, [](const std::string& warning) {
+    return warning.find("placed side by side") != std::string::npos;
   });
   // Of an object that is made longer, what is flat along it becomes more of the surface.
   const bool extended = examples.front().field().size() != result.field().size() &&
@@ -49,6 +55,8 @@ void addDoubts(std::span<const Example> examples, const Request& request, Result
   for (const Doubt doubt : doubtsOf(signs)) {
     if (doubt == Doubt::Sliced && extended) continue;
     if (doubt == Doubt::Moved && nearlySaid) continue;
+    // Copies that were asked for, or that the engine announces itself.
+    if (doubt == Doubt::Repeated && (examples.front().reading.scatter || repeated)) continue;
     // What leaves a result that tiles at one side goes on at the other.
     const bool aroundTheBox = doubt == Doubt::Open || doubt == Doubt::Pieces;
     if (request.periodic.any() && aroundTheBox) continue;

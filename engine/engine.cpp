@@ -44,6 +44,7 @@ void checkRequest(const Engine& engine, const Request& request) {
   if (request.decided.keep && !honors(engine, "keep")) refuse(engine, "keep");
   if (!request.decided.pins.empty() && !honors(engine, "pin")) refuse(engine, "pin");
   if (request.guide && !honors(engine, "guide")) refuse(engine, "guide");
+  if (request.mixMap && !honors(engine, "mix-map")) refuse(engine, "mix-map");
   if (request.on && !honors(engine, "on")) refuse(engine, "on");
   for (const auto& [key, text] : request.settings.given()) {
     const auto found = std::ranges::find(engine.settings(), key, &Setting::key);

@@ -12,13 +12,14 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "engine/engines.h"
+#include "engine/field_control.h"
 #include "engine/words.h"
 #include "measure/collapse.h"
 #include "measure/novelty.h"
 #include "measure/occupancy.h"
-#include "sdf/mesh_to_sdf.h"
-#include "sdf/resample.h"
+#include "measure/offsets.h"
 #include "synth/geometry/blocks.h"
+#include "synth/geometry/kept_places.h"
 #include "synth/geometry/objects/objects.h"
 #include "synth/geometry/quilting/quilting.h"
 #include "synth/geometry/stationary.h"
@@ -27,13 +28,14 @@
 namespace exemplar {
 namespace {
 
-/// A mesh is sampled with this many voxels of air around it, to ask what is inside it.
-constexpr int kRegionPadding = 2;
 /// About what a sample of a result takes: the field, its origins, the search and the surface.
 constexpr double kBytesPerSample = 80;
 
 /// A variation of an object that differs from it by less, 1 - IoU, is hardly one.
 constexpr double kVaried = 0.12;
+
+/// A mix is what was asked for up to this, of the surface.
+constexpr double kMixOff = 0.1;
 
 Vec3i fieldSize(std::span<const Example> examples, const Request& request) {
   const Example& example = examples.front();
@@ -42,89 +44,6 @@ Vec3i fieldSize(std::span<const Example> examples, const Request& request) {
                 "a result of " + readableSize(size, "samples"),
                 "use a lower `resolution` or a smaller `scale`");
   return size;
-}
-
-void requireRegion(const Source& source) {
-  requireThere(source);
-  const SourceKind kind = sourceKind(source);
-  if (kind != SourceKind::Mesh && kind != SourceKind::Volume)
-    throw InputError("`keep`: " + source.name() + " is neither a mesh nor a .vdb");
-}
-
-void requireGuide(const Source& source) {
-  requireThere(source);
-  const SourceKind kind = sourceKind(source);
-  if (kind == SourceKind::Labels || kind == SourceKind::Picture)
-    throw InputError("`guide`: " + source.name() + " is neither a mesh, a volume nor a height map");
-}
-
-/// A solid to ask for what is inside: a mesh's, or a volume's, and from there to where it lies.
-struct Region {
-  DistanceField field;
-  Turn turn;
-};
-Region readRegion(const Source& source, double voxelSize, const ReadOptions& reading,
-                  const Progress& progress) {
-  Region region;
-  requireRegion(source);
-  switch (sourceKind(source)) {
-    case SourceKind::Mesh:
-      region.field = meshToSdf(readTriangles(source, reading.mesh),
-                               {.voxelSize = voxelSize, .padding = kRegionPadding}, progress);
-      return region;
-    default:
-      region.field = readDistances(source, {.turn = &region.turn});
-      return region;
-  }
-}
-
-/// Which samples of a result are inside the solid that is kept.
-Array3D<std::uint8_t> keptSamples(const Source& source, const Example& in, const Vec3i& size,
-                                  const ReadOptions& reading, const Progress& progress) {
-  const DistanceField& example = in.field();
-  const Region region = readRegion(source, example.voxelSize, reading, progress);
-  const Box3d box = region.field.box();
-  const Turn back = region.turn.back();
-  Array3D<std::uint8_t> kept(size);
-  bool any = false;
-  forEachCell(min(size, example.size()), [&](const Vec3i& p) {
-    const Vec3d xyz = back(in.turn(example.position(cast<double>(p))));
-    if (!box.contains(xyz)) return;
-    kept[p] = sampleTrilinear(region.field, xyz) < 0;
-    any = any || kept[p];
-  });
-  if (!any) {
-    throw InputError("`keep`: no sample of the example is inside " + source.name() +
-                     "; it must be a solid in the example's own coordinates");
-  }
-  return kept;
-}
-
-/// The guide, stretched to the result's box, in voxels of the result.
-Array3D<float> guideDistances(const Source& source, const Vec3i& size, const ReadOptions& reading,
-                              const Progress& progress) {
-  ReadOptions options = reading;
-  options.form = Form::Field;
-  options.holdDetail = options.scatter = false;
-  options.wanted.reset();
-  options.padding = 0;
-  const Example guideExample = readExample(source, options, progress);
-  const DistanceField& field = guideExample.field();
-  double stretch = 0;
-  Vec3d scale;
-  for (int axis = 0; axis < 3; ++axis) {
-    scale[axis] = static_cast<double>(field.size()[axis]) / size[axis];
-    stretch += 1 / scale[axis] / 3;
-  }
-  Array3D<float> guide(size);
-  parallelForEachCell(size, [&](const Vec3i& cell) {
-    const Vec3d p = cast<double>(cell);
-    Vec3d index;
-    for (int axis = 0; axis < 3; ++axis) index[axis] = (p[axis] + 0.5) * scale[axis] - 0.5;
-    guide[cell] = static_cast<float>(sampleTrilinear(field, field.position(index)) /
-                                     field.voxelSize * stretch);
-  });
-  return guide;
 }
 
 /// Warns where the result is all solid, all empty or one part repeated.
@@ -179,6 +98,36 @@ void noteStationary(const Axes& axes, bool found, Result& result) {
       "stationary", readableAxes(axes) + (found ? ", found from the example (`stationary`)" : ""));
 }
 
+/// Lays a result so that what is kept, which is `offset` samples from where the example has it,
+/// stays where it is in space.
+void placeAround(const Vec3i& offset, Result& result) {
+  DistanceField& field = std::get<DistanceField>(result.data);
+  for (int axis = 0; axis < 3; ++axis) field.origin[axis] -= offset[axis] * field.voxelSize;
+}
+
+/// Notes how much of the surface each example made, and warns where that is not what was asked for.
+void noteMix(std::span<const Example> examples, const MixOptions& mix, Result& result) {
+  const std::vector<double> made =
+      surfaceShares(Occupancy(result.field()), result.origins, examples.size());
+  std::string text;
+  double farthest = 0;
+  for (std::size_t e = 0; e < made.size(); ++e) {
+    text += (e > 0 ? ", " : "") + std::to_string(std::lround(100 * made[e])) + " % of " +
+            examples[e].name();
+    const double wanted =
+        mix.shares.empty() ? 1.0 / static_cast<double>(made.size()) : mix.shares[e];
+    farthest = std::max(farthest, std::abs(made[e] - wanted));
+    result.statistics.emplace_back("surface_share_" + std::to_string(e + 1), made[e]);
+  }
+  result.notes.emplace_back("mix", text + " (of the surface)");
+  if (!mix.map && farthest > kMixOff) {
+    result.warnings.push_back(
+        "the examples do not have the shares of the surface that were asked for (" + text +
+        "): they hardly meet; try another `seed` or a larger `scale`, or say where each of them "
+        "is wanted (`mix-map`)");
+  }
+}
+
 constexpr const char* kStationary =
     "axes along which the example is stationary (repeats itself), so that its parts may move along "
     "them: xyz, xy, none, ...";
@@ -207,6 +156,16 @@ const SettingTable<QuiltingOptions>& quiltingTable() {
   return table;
 }
 
+/// Shares: what they are depends on the number of examples, so they are read where that is known.
+SettingTable<VotingOptions>::Row mixRow() {
+  return {{.key = "mix",
+           .type = SettingType::Text,
+           .meaning = "the second of two examples' share of the result's surface, 0 to 1; of more "
+                      "examples the share of each but the first: 0.3,0.2",
+           .byDefault = "equal shares"},
+          [](const Setting&, const std::string&, VotingOptions&) {}};
+}
+
 const SettingTable<VotingOptions>& votingTable() {
   using O = VotingOptions;
   static const SettingTable<O> table{
@@ -219,6 +178,7 @@ const SettingTable<VotingOptions>& votingTable() {
       settingRow<O>("completeness", &O::completeness,
                     "the smaller, the more each part of the example gets its turn; inf for none",
                     kAboveZero, "squared voxels"),
+      mixRow(),
       settingRow<O>("guide-weight", &O::guideWeight, "weight of the guide beside the example",
                     kAboveZero),
       truncationRow<O>()};
@@ -234,11 +194,17 @@ class FieldEngine : public Engine {
   }
 
  protected:
-  void checkFurther(const Request& request, std::size_t) const override {
+  void checkFurther(const Request& request, std::size_t examples) const override {
     if (request.settings.has("guide-weight") && !request.guide)
       throw InputError("`guide-weight`: there is no `guide` to weigh");
-    if (request.decided.keep) requireRegion(*request.decided.keep);
+    if (request.decided.keep) requireKeep(*request.decided.keep);
     if (request.guide) requireGuide(*request.guide);
+    if (request.mixMap) requireMixMap(*request.mixMap);
+    if (request.mixMap && examples < 2)
+      throw InputError("`mix-map`: there is no second example to mix with the first");
+    if (request.mixMap && request.settings.has("mix"))
+      throw InputError("`mix-map` and `mix` both say how examples share; give one of the two");
+    mixShares(request.settings.text("mix"), examples);
   }
 };
 
@@ -293,7 +259,7 @@ class VotingEngine final : public FieldEngine {
   bool mixes() const override { return true; }
   std::span<const Setting> settings() const override { return votingTable().settings(); }
   std::span<const std::string_view> honors() const override {
-    static constexpr std::string_view keys[] = {"periodic", "keep", "guide"};
+    static constexpr std::string_view keys[] = {"periodic", "keep", "guide", "mix-map"};
     return keys;
   }
 
@@ -305,23 +271,35 @@ class VotingEngine final : public FieldEngine {
     options.size = fieldSize(examples, request);
     options.seed = request.seed;
     options.periodic = request.periodic;
+    std::optional<Array3D<std::uint8_t>> kept;
+    KeptPlaces places;
     if (request.decided.keep) {
-      options.kept = keptSamples(*request.decided.keep, examples.front(), options.size,
-                                 request.reading, progress.part(0, 0.05));
+      const DistanceField& example = examples.front().field();
+      kept = keptSamples(*request.decided.keep, examples.front(), request.reading,
+                         progress.part(0, 0.05));
+      places = placeKept(example, *kept, options.size, options.periodic);
+      options.kept = places.kept;
+      options.keptOffsets = places.offsets;
     }
     if (request.guide) {
       options.guide =
           guideDistances(*request.guide, options.size, request.reading, progress.part(0.05, 0.1));
     }
+    options.mix.shares = mixShares(request.settings.text("mix"), examples.size());
+    if (request.mixMap) {
+      options.mix.map =
+          mixMap(*request.mixMap, options.size, request.reading, progress.part(0.05, 0.1));
+    }
     const std::vector<const DistanceField*> fields = fieldsOf(examples);
     const bool found = !options.stationary;
     if (found)
-      options.stationary =
-          withoutSideways(stationaryAxes(fields, options.kept ? &*options.kept : nullptr),
-                          examples.front(), options.size);
+      options.stationary = withoutSideways(stationaryAxes(fields, kept ? &*kept : nullptr),
+                                           examples.front(), options.size);
     Result result =
         resultOf(synthesizeByVoting(fields, options, progress.part(0.1, 1)), "voting", examples);
     noteStationary(*options.stationary, found, result);
+    if (kept) placeAround(places.offset, result);
+    if (examples.size() > 1) noteMix(examples, options.mix, result);
     return result;
   }
 };
@@ -342,6 +320,10 @@ class GeometryEngine final : public FieldEngine {
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {
     if (isObject(examples, request)) return objectResult(examples, request, progress);
+    if (mayExtend(examples, request)) {
+      if (std::optional<Result> extended = extendedResult(examples, request, progress))
+        return std::move(*extended);
+    }
     if (const std::optional<Request> quilted = quiltingRequest(examples, request))
       return quiltingEngine().run(examples, *quilted, progress);
     return votingEngine().run(examples, request, progress);
@@ -393,6 +375,32 @@ class GeometryEngine final : public FieldEngine {
                                 " % of the solid differ): the object has few parts that can be "
                                 "exchanged or made longer and shorter; a larger `resolution` may "
                                 "show more of them");
+    return result;
+  }
+
+  /// Whether what is kept may be gone on from as an object is made longer.
+  static bool mayExtend(std::span<const Example> examples, const Request& request) {
+    return examples.size() == 1 && request.decided.keep && !request.guide &&
+           !request.periodic.any() && request.settings.given().empty() &&
+           fieldSize(examples, request) != examples.front().field().size();
+  }
+  /// The example made longer in its own structure where nothing is kept; nothing where it has none.
+  static std::optional<Result> extendedResult(std::span<const Example> examples,
+                                              const Request& request, const Progress& progress) {
+    ObjectOptions options;
+    options.size = fieldSize(examples, request);
+    options.seed = request.seed;
+    options.kept = keptSamples(*request.decided.keep, examples.front(), request.reading,
+                               progress.part(0, 0.05));
+    ObjectResult made = synthesizeObject(examples.front().field(), options, progress.part(0.05, 1));
+    if (volume(made.made.field.size()) == 0) return std::nullopt;
+    Result result = resultOf(std::move(made.made), "extension", examples);
+    placeAround(made.keptOffset, result);
+    Axes longer;
+    for (int axis = 0; axis < 3; ++axis)
+      longer[axis] = made.growth[static_cast<std::size_t>(axis)] == Growth::Fitted;
+    result.notes.emplace_back("keep", "extended in its own structure along " +
+                                          readableAxes(longer) + ", around what is kept");
     return result;
   }
 

@@ -39,8 +39,9 @@ std::span<const Setting> requestSettings() {
     settings.push_back({.key = "keep",
                         .type = SettingType::File,
                         .meaning = "a solid (mesh or .vdb) in the example's coordinates: what is "
-                                   "inside stays as it is, and all else is made of it; of a height "
-                                   "map a gray picture: what is white stays"});
+                                   "inside stays as it is, an end at its end, and all else is made "
+                                   "of it, or in a longer result also of the end that is not "
+                                   "kept; of a height map a gray picture: what is white stays"});
     settings.push_back({.key = "guide",
                         .type = SettingType::File,
                         .meaning = "a volume, mesh or height map, stretched to the result's box, "
@@ -48,6 +49,12 @@ std::span<const Setting> requestSettings() {
                                    "heights, or lines of ridges and valleys (.csv); of solids a "
                                    "picture seen from above, or cells (.vox, .txt): nothing is "
                                    "where it is black or empty, most where it is white"});
+    settings.push_back({.key = "mix-map",
+                        .type = SettingType::File,
+                        .meaning = "where each of several examples is wanted: a gray picture seen "
+                                   "from above, black for the first and white for the last, or "
+                                   "a volume (.vdb), inside whose solid the last is; both are "
+                                   "stretched to the result's box"});
     settings.push_back({.key = "on",
                         .type = SettingType::File,
                         .meaning = "a surface (mesh) that the example, which lies flat, is laid "
@@ -69,6 +76,7 @@ Request requestOf(const Settings& settings, const ReadOptions& reading) {
     throw InputError("`size` and `scale` say the same thing; give one of the two");
   if (settings.has("keep")) request.decided.keep = Source(settings.text("keep"));
   if (settings.has("guide")) request.guide = Source(settings.text("guide"));
+  if (settings.has("mix-map")) request.mixMap = Source(settings.text("mix-map"));
   if (settings.has("on")) request.on = Source(settings.text("on"));
   for (const std::string& text : settings.texts("pin")) {
     const auto [cell, labels] = keyAndValue(text, "`pin`", "X,Y,Z=LABEL,...");

@@ -26,7 +26,8 @@ struct Pin {
 /// What is decided before an engine begins.
 struct Decided {
   /// Field: a solid (mesh or volume) in the example's coordinates. What is inside stays as it is in
-  /// the example, to the bit. Heights: a gray picture, in which that is white.
+  /// the example, to the bit, and where it is in space (with both ends kept, the low one); a larger
+  /// result goes on from there to the other side. Heights: a gray picture, in which that is white.
   std::optional<Source> keep;
   /// Labels: cells that are decided.
   std::vector<Pin> pins;
@@ -42,6 +43,9 @@ struct Request {
   /// Field: a volume, mesh or height map, stretched to the result's box, that says coarsely where
   /// solid should be; Heights: rough heights, or a file of ridges and valleys.
   std::optional<Source> guide;
+  /// Field, of several examples: where each is wanted. A gray picture seen from above (black the
+  /// first, white the last) or a volume (inside its solid the last).
+  std::optional<Source> mixMap;
   /// Field: a mesh that the example, which lies flat, is laid on.
   std::optional<Source> on;
   ReadOptions reading;  ///< how what is kept, the guide and the surface are read
@@ -50,7 +54,7 @@ struct Request {
 };
 
 /// The settings that every request has (`scale`, `size`, `seed`) and those that some engines have
-/// (`periodic`, `keep`, `guide`, `on`, `pin`), which `requestOf` reads.
+/// (`periodic`, `keep`, `guide`, `mix-map`, `on`, `pin`), which `requestOf` reads.
 std::span<const Setting> requestSettings();
 
 /// The request that settings stand for: those of `requestSettings` are read, all others are passed

@@ -13,6 +13,7 @@ namespace exemplar {
 namespace {
 
 constexpr double kMoved = 0.1, kFloating = 0.005, kOccupancy = 0.15, kOpen = 0.005;
+constexpr double kRepeated = 0.25, kRepeatedMean = 1.5;
 constexpr double kSliced = 0.02, kSlicedOfFlat = 0.15;
 
 std::string percent(double share) {
@@ -61,6 +62,8 @@ std::string doubtName(Doubt doubt) {
       return "pieces";
     case Doubt::Floating:
       return "floating";
+    case Doubt::Repeated:
+      return "repeated";
     case Doubt::Occupancy:
       return "occupancy";
     case Doubt::Sliced:
@@ -76,7 +79,8 @@ DoubtSigns doubtSigns(const Occupancy& example, const Occupancy& result, const P
   const ExampleNature nature = natureOf(example);
   const Integrity before = integrityOf(example, nature, progress.part(0, 0.1));
   signs.wholeness = compareWholeness(before, integrityOf(result, nature, progress.part(0.1, 0.4)));
-  signs.rolled = rolledDistance(example, result, {}, progress.part(0.4, 1));
+  signs.rolled = rolledDistance(example, result, {}, progress.part(0.4, 0.9));
+  signs.landmarks = countLandmarks(example, result, {}, progress.part(0.9, 1));
   signs.rollingIsFair = nature.fillsEvenly;
   signs.exampleSize = example.size();
   signs.resultSize = result.size();
@@ -95,6 +99,12 @@ std::vector<Doubt> doubtsOf(const DoubtSigns& s) {
   if (w.floatingShare > w.exampleFloatingShare + kFloating &&
       w.floatingShare > 1.5 * w.exampleFloatingShare)
     doubts.push_back(Doubt::Floating);
+  // A tiling, or a material that fills its box, has its parts as often as it is large.
+  const bool material = s.rollingIsFair.x && s.rollingIsFair.y;
+  const bool moved = !doubts.empty() && doubts.front() == Doubt::Moved;
+  if (!material && !moved && s.landmarks.repeated() > kRepeated &&
+      s.landmarks.mean() > kRepeatedMean * s.landmarks.allowed)
+    doubts.push_back(Doubt::Repeated);
   const double ratio = s.resultOccupancy / s.exampleOccupancy;
   if (std::abs(ratio - 1) > kOccupancy) doubts.push_back(Doubt::Occupancy);
   if (w.slicedShare > std::max(kSliced, kSlicedOfFlat * w.exampleFlatShare))
@@ -123,6 +133,12 @@ std::string doubtSentence(Doubt doubt, const DoubtSigns& s) {
              (w.exampleFloatingShare > 0.0005
                   ? ", of the example's " + percent(w.exampleFloatingShare)
                   : "");
+    case Doubt::Repeated: {
+      char mean[32];
+      std::snprintf(mean, sizeof mean, "%.1f", s.landmarks.mean());
+      return "what the example has only once is in the result " + std::string(mean) +
+             " times on the mean, and up to " + std::to_string(s.landmarks.most()) + " times";
+    }
     case Doubt::Occupancy:
       return "the result is " + percent(s.resultOccupancy) + " solid, the example " +
              percent(s.exampleOccupancy);

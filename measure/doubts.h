@@ -9,6 +9,7 @@
 
 #include "core/axes.h"
 #include "core/progress.h"
+#include "measure/landmarks.h"
 #include "measure/occupancy.h"
 #include "measure/rolled_distance.h"
 #include "measure/wholeness.h"
@@ -20,12 +21,14 @@ enum class Doubt {
   Moved,      ///< it is the example, at rest, moved or tiled
   Pieces,     ///< it fell into more pieces
   Floating,   ///< parts have nothing under them
+  Repeated,   ///< what the example has only once is there again and again
   Occupancy,  ///< it is fuller or emptier
   Sliced,     ///< flat cuts that the example does not have
   Open,       ///< the box cuts it where the example ends in air
 };
-inline constexpr std::array kDoubts{Doubt::Moved,     Doubt::Pieces, Doubt::Floating,
-                                    Doubt::Occupancy, Doubt::Sliced, Doubt::Open};
+inline constexpr std::array kDoubts{Doubt::Moved,    Doubt::Pieces,    Doubt::Floating,
+                                    Doubt::Repeated, Doubt::Occupancy, Doubt::Sliced,
+                                    Doubt::Open};
 /// "moved", "pieces", ..., as in JSON.
 std::string doubtName(Doubt doubt);
 
@@ -34,6 +37,7 @@ struct DoubtSigns {
   Wholeness wholeness;
   RolledDistance rolled;
   Axes rollingIsFair;
+  Landmarks landmarks;
   Vec3i exampleSize{}, resultSize{};
   double exampleOccupancy = 0, resultOccupancy = 0;  ///< solid shares, 0..1
 };

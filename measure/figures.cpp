@@ -95,6 +95,17 @@ void addWholeness(List& list, const Wholeness& w) {
   list.add("layers", w.layers, "difference of the solid shares of each height; 0 is best");
 }
 
+void addLandmarks(List& list, const Landmarks& l) {
+  list.group("landmarks");
+  list.add("landmarks", static_cast<std::int64_t>(l.occurrences.size()),
+           "windows that the example has only once");
+  const auto of = [&](double value) { return l.any() ? std::optional(value) : std::nullopt; };
+  list.add("landmark_mean", of(l.mean()), "how often they are in the result");
+  list.add("landmark_most", static_cast<std::int64_t>(l.most()), "the same of the commonest");
+  list.add("landmarks_repeated", of(l.repeated()),
+           "share that is there more than once, in larger results twice; 0 is best");
+}
+
 void addNovelty(List& list, const Novelty& n) {
   list.group("novelty");
   list.add("distance_to_example", n.distance, "1 - IoU, cell by cell; 0 is a copy");
@@ -196,6 +207,7 @@ std::vector<Figure> figures(const Measures& measures) {
   addMultiscale(list, measures.multiscale);
   list.add("windows", measures.likeness.dense.windows, "windows drawn for lp_dense");
   addWholeness(list, measures.wholeness);
+  addLandmarks(list, measures.landmarks);
   addNovelty(list, measures.novelty);
   list.group("frontier");
   list.add("likeness",
@@ -214,6 +226,7 @@ std::vector<Figure> figures(const Measures& measures) {
   const char* const meanings[] = {"it is the example, at rest, moved or tiled",
                                   "it fell into more pieces",
                                   "parts have nothing under them",
+                                  "what the example has only once is there again and again",
                                   "it is fuller or emptier by 15 %",
                                   "flat cuts that the example does not have",
                                   "the box cuts it where the example ends in air"};

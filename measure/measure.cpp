@@ -26,7 +26,9 @@ Measures measure(const DistanceField& example, const DistanceField& result,
   m.likeness = measureLikeness(example, result, options.likeness, progress.part(0, 0.4));
   m.multiscale =
       multiscaleDistance(example, result, {.seed = options.likeness.seed}, progress.part(0.4, 0.5));
-  m.wholeness = measureWholeness(Occupancy(example), Occupancy(result), progress.part(0.5, 0.55));
+  m.wholeness = measureWholeness(Occupancy(example), Occupancy(result), progress.part(0.5, 0.53));
+  m.landmarks = countLandmarks(Occupancy(example), Occupancy(result),
+                               {.seed = options.likeness.seed}, progress.part(0.53, 0.55));
   m.novelty = measureNovelty(example, result, input.origins, options.exampleIndex,
                              progress.part(0.55, 0.7));
   if (m.multiscale) {
@@ -54,6 +56,7 @@ Measures measure(const DistanceField& example, const DistanceField& result,
   m.doubts = doubtsOf({.wholeness = m.wholeness,
                        .rolled = m.novelty.rolled,
                        .rollingIsFair = m.novelty.rollingIsFair,
+                       .landmarks = m.landmarks,
                        .exampleSize = example.size(),
                        .resultSize = result.size(),
                        .exampleOccupancy = l.exampleOccupancy,

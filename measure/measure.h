@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "measure/collapse.h"
 #include "measure/doubts.h"
+#include "measure/landmarks.h"
 #include "measure/likeness.h"
 #include "measure/multiscale_distance.h"
 #include "measure/novelty.h"
@@ -54,6 +55,7 @@ struct Measures {
   Likeness likeness;
   std::optional<MultiscaleDistance> multiscale;
   Wholeness wholeness;
+  Landmarks landmarks;
   Novelty novelty;
   std::optional<Frontier> frontier;  ///< where there is a multi-scale distance
   Seams seams;

@@ -68,11 +68,23 @@ std::vector<std::int64_t> grouped(const Counts& counts, const std::optional<Vec3
   return groups;
 }
 
+/// Calls `body` for each cell that `offsetUse` counts, in the order of the grid.
+template <class Body>
+void forEachSurfaceCell(const Occupancy& result, const Body& body) {
+  const Vec3i n = result.size();
+  for (int z = 0; z < n.z; ++z)
+    for (int y = 0; y < n.y; ++y)
+      for (int x = 0; x < n.x; x += 64)
+        for (std::uint64_t bits = surfaceBits(result, x, y, z); bits != 0; bits &= bits - 1)
+          body(Vec3i{x + std::countr_zero(bits), y, z});
+}
+
 }  // namespace
 
 OffsetUse offsetUse(const Occupancy& result, const Origins& origins, const Vec3i& exampleSize,
                     const Progress& progress) {
-  const Vec3i n = result.size();
+  const int layers = result.size().z;
+  int layer = -1;
   Counts counts, rolled;
   std::int64_t surface = 0;
   OriginMotion last;
@@ -88,18 +100,17 @@ OffsetUse offsetUse(const Occupancy& result, const Origins& origins, const Vec3i
     rolled[around] += run;
     run = 0;
   };
-  for (int z = 0; z < n.z; ++z) {
-    progress.report("counting offsets", static_cast<double>(z) / n.z);
-    for (int y = 0; y < n.y; ++y)
-      for (int x = 0; x < n.x; x += 64)
-        for (std::uint64_t bits = surfaceBits(result, x, y, z); bits != 0; bits &= bits - 1) {
-          const OriginMotion motion = motionAt(origins, {x + std::countr_zero(bits), y, z});
-          if (run > 0 && !(motion == last)) flush();
-          last = motion;
-          ++run;
-          ++surface;
-        }
-  }
+  forEachSurfaceCell(result, [&](const Vec3i& cell) {
+    if (cell.z != layer) {
+      layer = cell.z;
+      progress.report("counting offsets", static_cast<double>(layer) / layers);
+    }
+    const OriginMotion motion = motionAt(origins, cell);
+    if (run > 0 && !(motion == last)) flush();
+    last = motion;
+    ++run;
+    ++surface;
+  });
   flush();
   OffsetUse use;
   if (surface == 0) return use;
@@ -114,6 +125,18 @@ OffsetUse offsetUse(const Occupancy& result, const Origins& origins, const Vec3i
   }
   use.topRolled = static_cast<double>(grouped(rolled, exampleSize, enough).front()) / all;
   return use;
+}
+
+std::vector<double> surfaceShares(const Occupancy& result, const Origins& origins,
+                                  std::size_t examples) {
+  std::vector<double> shares(examples);
+  double all = 0;
+  forEachSurfaceCell(result, [&](const Vec3i& cell) {
+    shares[origins[cell].example] += 1;
+    all += 1;
+  });
+  for (double& share : shares) share /= std::max(1.0, all);
+  return shares;
 }
 
 }  // namespace exemplar

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/origin.h"
 #include "core/progress.h"
@@ -31,5 +33,10 @@ inline constexpr int kOffsetReach = 2;  ///< voxels
 /// All zero for a result without surface. O(cells log offsets). Throws `Cancelled`.
 OffsetUse offsetUse(const Occupancy& result, const Origins& origins, const Vec3i& exampleSize,
                     const Progress& progress = {});
+
+/// How much of a result's surface, as above, each of several examples made: one share for each, all
+/// zero for a result without surface. O(cells).
+std::vector<double> surfaceShares(const Occupancy& result, const Origins& origins,
+                                  std::size_t examples);
 
 }  // namespace exemplar

@@ -198,7 +198,8 @@ function plotsSection(page, figures) {
   const main = h('div', { class: 'plots' }), more = h('div', { class: 'plots' });
   const draw = () => {
     const make = (f) => plot(f, page.engines, values, page.seed);
-    main.replaceChildren(...kMain.map((id) => numeric.find((f) => f.id === id)).filter(Boolean).map(make));
+    main.replaceChildren(...[frontierPlot(page.report.runs, page.seed),
+      ...kMain.map((id) => numeric.find((f) => f.id === id)).filter(Boolean).map(make)].filter(Boolean));
     more.replaceChildren(...numeric.filter((f) => !kMain.includes(f.id)).map(make));
   };
   page.onSeed.push(draw);

@@ -61,6 +61,44 @@ function plot(figure, engines, valuesOf, shownSeed) {
     h('p', { class: 'meaning' }, figure.meaning ? `${capital(figure.meaning)}.` : ''));
 }
 
+/// Likeness against novelty, a sign for each result: what is wanted is right and below.
+function frontierPlot(runs, shownSeed) {
+  const results = runs.map((run) => ({ run, at: (run.figures || {}).frontier || {} }))
+    .filter(({ at }) => typeof at.likeness === 'number' && typeof at.novelty === 'number');
+  if (!results.length) return null;
+  const width = 300, height = 190, left = 34, right = 12, top = 10, bottom = 34;
+  const kNew = 0.2, kAlike = 2;
+  const most = Math.max(kAlike * 1.25, ...results.map(({ at }) => at.likeness));
+  const widest = Math.max(0.5, ...results.map(({ at }) => at.novelty));
+  const x = (v) => left + (v / widest) * (width - left - right);
+  const y = (v) => height - bottom - (v / most) * (height - top - bottom);
+  const svg = h('svg', {
+    viewBox: `0 0 ${width} ${height}`, role: 'img',
+    'aria-label': `Likeness against novelty: ${results.map(({ run, at }) => `${run.engine}, seed ${run.seed}: ${number(at.likeness)}, ${number(at.novelty)}`).join('; ')}`,
+  });
+  svg.append(h('rect', { x: x(kNew), y: y(kAlike), width: width - right - x(kNew), height: y(0) - y(kAlike), class: 'wanted' }));
+  for (const tick of ticksOf(0, widest)) {
+    svg.append(h('line', { x1: x(tick), x2: x(tick), y1: top, y2: y(0), class: 'grid' }),
+      h('text', { x: x(tick), y: height - bottom + 13, 'text-anchor': 'middle', class: 'tick' }, short(Number(tick.toPrecision(6)))));
+  }
+  for (const tick of ticksOf(0, most)) {
+    svg.append(h('line', { x1: left, x2: width - right, y1: y(tick), y2: y(tick), class: 'grid' }),
+      h('text', { x: left - 5, y: y(tick) + 4, 'text-anchor': 'end', class: 'tick' }, short(Number(tick.toPrecision(6)))));
+  }
+  svg.append(h('text', { x: (left + width - right) / 2, y: height - 4, 'text-anchor': 'middle', class: 'tick' }, 'novelty →'));
+  for (const { run, at } of results) {
+    const dot = sign(run.engine, x(at.novelty), y(at.likeness), 4, {});
+    dot.classList.add('dot');
+    if (run.seed === shownSeed) dot.classList.add('shown');
+    dot.append(h('title', {}, `${run.engine}, seed ${run.seed}: likeness ${number(at.likeness)}, novelty ${number(at.novelty)} (${String(at.kind).replaceAll('_', ' ')})`));
+    svg.append(dot);
+  }
+  return h('figure', { class: 'plot', 'data-figure': 'frontier' },
+    h('figcaption', {}, h('b', {}, 'Likeness against novelty'), h('span', { class: 'unit' }, '× a fresh sample’s distance')),
+    svg,
+    h('p', { class: 'meaning' }, 'Up: how much farther from the example than a fresh sample of it is, at several scales. Right: how far from the example itself, wherever it is laid. The field is what is wanted: alike, and new.'));
+}
+
 /// What every engine came to: success over seeds, time, memory, violations.
 function outcomes(engines, runs) {
   const line = (engine) => {

@@ -441,6 +441,39 @@ TEST(SynthCommand, WhatIsKeptStaysAsItIs) {
   EXPECT_THAT(missing.err, testing::HasSubstr("nothing.vdb"));
 }
 
+TEST(SynthCommand, AMixHasTheSharesThatAreAskedForOrSaysSo) {
+  const TestFolder folder;
+  const auto result = runExemplar("synth " + scene("balls") + kQuick + "--with " + scene("fibers") +
+                                      " --mix 0.3 -o o.vdb --stats s.json",
+                                  folder.path());
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, testing::HasSubstr("of the surface"));
+  const auto stats = nlohmann::json::parse(readFile(folder / "s.json"));
+  const double second = stats.at("surface_share_2");
+  EXPECT_NEAR(stats.at("surface_share_1").get<double>() + second, 1, 1e-6);
+  if (std::abs(second - 0.3) > 0.1)
+    EXPECT_THAT(result.err, testing::HasSubstr("do not have the shares"));
+  else
+    EXPECT_THAT(result.err, testing::Not(testing::HasSubstr("do not have the shares")));
+  // Painted: the left half of the box is the first example's, the right half the second's.
+  writePng(folder / "map.png", Image8{2, 1, 1, {0, 255}});
+  const auto painted =
+      runExemplar("synth " + scene("balls") + kQuick + "--with " + scene("fibers") +
+                      " --mix-map map.png -o p.vdb --origins from.vdb",
+                  folder.path());
+  ASSERT_EQ(painted.status, 0) << painted.err;
+  const Origins origins = readOriginsVdb(folder / "from.vdb");
+  const int n = origins.size().x;
+  std::int64_t right[2] = {}, all[2] = {};
+  for (std::size_t s = 0; s < origins.count(); ++s) {
+    const int side = origins.ijk(s).x >= n / 2;
+    ++all[side];
+    right[side] += origins.values()[s].example == side;
+  }
+  EXPECT_GT(static_cast<double>(right[0]) / static_cast<double>(all[0]), 0.8);
+  EXPECT_GT(static_cast<double>(right[1]) / static_cast<double>(all[1]), 0.8);
+}
+
 TEST(SynthCommand, SeveralExamplesAndTurnsComeOutInOneResult) {
   const TestFolder folder;
   const auto result = runExemplar("synth " + scene("balls") + kQuick + "--scale 1 --with " +

@@ -43,6 +43,20 @@ TEST(OffsetUse, OfHalvesExchangedIsTwoAndRolledOne) {
   EXPECT_EQ(use.offsets95, 2);
 }
 
+TEST(SurfaceShares, AreThoseOfTheExamplesThatCellsCameFrom) {
+  const Origins origins = makeOrigins({64, 32, 32}, [](const Vec3i& p) {
+    return Origin({p.x % 32, p.y, p.z}, p.x < 32 ? 2 : 0);
+  });
+  const Occupancy result(gathered(example(), origins));
+  const std::vector<double> shares = surfaceShares(result, origins, 3);
+  ASSERT_EQ(shares.size(), 3u);
+  EXPECT_NEAR(shares[0], 0.5, 0.02);  // what is beside the border counts as surface or not
+  EXPECT_EQ(shares[1], 0);
+  EXPECT_NEAR(shares[2], 0.5, 0.02);
+  EXPECT_EQ(surfaceShares(Occupancy(gathered(example(), origins), 100), origins, 2),
+            (std::vector<double>{0, 0}));
+}
+
 TEST(OffsetUse, OfATilingIsOneForEachTileAndRolledOne) {
   const OffsetUse use = used({64, 64, 32}, [](const Vec3i& p) {
     return Origin({p.x % 32, p.y % 32, p.z});

@@ -149,7 +149,11 @@ SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw
   SlicePath best;
   if (solid < 1 || made < 2 * run) return best;
   const Random random(draw, stream::kSlices);
-  const double most = std::ceil(static_cast<double>(made) / solid);
+  int once = 0;  // slices that are held, and so no part of what is repeated
+  for (const SliceRange& range : held)
+    once += std::max(0, std::min(end, range.end) - std::max(begin, range.begin));
+  const double most =
+      std::ceil(static_cast<double>(std::max(0, made - once)) / std::max(1, solid - once));
   const auto at = [&](int i, int slice) {
     return static_cast<std::size_t>(i) * static_cast<std::size_t>(solid) +
            static_cast<std::size_t>(slice);

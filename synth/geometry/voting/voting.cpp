@@ -111,24 +111,47 @@ bool keepsSurface(const DistanceField& example, const Array3D<std::uint8_t>& kep
   return solid && air;
 }
 
-/// Whether only what is kept is copied from the first example.
-bool keptAlone(std::span<const DistanceField* const> examples, const VotingOptions& options) {
-  const Vec3i n = examples[0]->size();
-  return options.kept && options.keptOffsets.empty() && max(options.size, n) == n &&
-         keepsSurface(*examples[0], *options.kept);
+/// What is kept, as samples of the first example; empty where nothing is.
+Array3D<std::uint8_t> keptOfExample(const DistanceField& example, const VotingOptions& options) {
+  if (!options.kept) return {};
+  Array3D<std::uint8_t> kept(example.size());
+  forEachCell(options.size, [&](const Vec3i& p) {
+    const std::uint8_t block = (*options.kept)[p];
+    if (!block) return;
+    const Vec3i from = options.keptOffsets.empty() ? p : p - options.keptOffsets[block - 1U];
+    if (kept.contains(from)) kept[from] = 1;
+  });
+  return kept;
 }
 
-/// The examples, turned in all ways that are asked for.
+/// Whether a result of `size` is longer along an axis along which the example ends in air.
+bool hasFartherEnd(const DistanceField& example, const Vec3i& size) {
+  const Vec3i n = example.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (size[axis] <= n[axis]) continue;
+    for (const int layer : {0, n[axis] - 1}) {
+      CellBox side = CellBox::of(n);
+      side.begin[axis] = layer;
+      side.end[axis] = layer + 1;
+      bool air = true;
+      forEachCell(side, [&](const Vec3i& p) { air = air && example.values[p] > 0; });
+      if (air) return true;
+    }
+  }
+  return false;
+}
+
+/// The examples, turned in all ways that are asked for. Of the first only what is kept may be
+/// copied, unless that has no surface, or the result has a farther end, which must come from
+/// somewhere.
 std::vector<SourcePart> sourceParts(std::span<const DistanceField* const> examples,
                                     const VotingOptions& options) {
   std::vector<SourcePart> parts;
   for (std::size_t e = 0; e < examples.size(); ++e) {
     Array3D<std::uint8_t> usable;
-    if (e == 0 && keptAlone(examples, options)) {
-      usable = Array3D<std::uint8_t>(examples[0]->size());
-      forEachCell(usable.size(), [&](const Vec3i& p) {
-        usable[p] = options.kept->contains(p) && (*options.kept)[p] ? 1 : 0;
-      });
+    if (e == 0 && options.kept && !hasFartherEnd(*examples[0], options.size)) {
+      usable = keptOfExample(*examples[0], options);
+      if (!keepsSurface(*examples[0], usable)) usable = {};
     }
     for (int turns = 0; turns < (options.rotations ? 4 : 1); ++turns) {
       parts.push_back({turnedField(*examples[e], turns), static_cast<int>(e), turns,
@@ -138,16 +161,19 @@ std::vector<SourcePart> sourceParts(std::span<const DistanceField* const> exampl
   return parts;
 }
 
+/// Along which axes all examples are stationary, the first as far as it is kept.
+Axes findStationary(std::span<const DistanceField* const> examples, const VotingOptions& options) {
+  if (options.stationary) return *options.stationary;
+  const Array3D<std::uint8_t> kept = keptOfExample(*examples[0], options);
+  return stationaryAxes(examples, kept.empty() ? nullptr : &kept);
+}
+
 /// A result on its way from the coarsest level to the finest.
 class Voting {
  public:
   Voting(std::span<const DistanceField* const> examples, const VotingOptions& options)
       : options_(options),
-        stationary_(options.stationary
-                        ? *options.stationary
-                        : stationaryAxes(examples, options.kept && options.keptOffsets.empty()
-                                                       ? &*options.kept
-                                                       : nullptr)),
+        stationary_(findStationary(examples, options)),
         air_(static_cast<float>(options.truncation)),
         parts_(sourceParts(examples, options)),
         pyramid_(pyramidOptions(options)),

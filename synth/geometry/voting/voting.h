@@ -35,9 +35,10 @@ struct VotingOptions {
   /// What stays as it is: samples of the result, not 0, that are the (first) example's, to the bit;
   /// of the result's size. Where v, the sample is the example's at its place less
   /// `keptOffsets[v - 1]`, or at its place where there are no offsets. Samples outside the example
-  /// are ignored. Of a result that is not larger than the example along any axis the rest is copied
-  /// from what is kept alone, so that what is not kept (a hole in a scan) is synthesized; but where
-  /// only solid or only air is kept, and in larger results, all of the example is copied from.
+  /// are ignored. The rest is copied from what is kept alone, so that what is not kept of that
+  /// example (a hole in a scan) is synthesized; but all of it is copied from where only solid or
+  /// only air is kept, and where the result is longer along an axis along which the example ends in
+  /// air: its farther end must come from somewhere.
   std::optional<Array3D<std::uint8_t>> kept;
   std::vector<Vec3i> keptOffsets;
   /// What the solid should be near to, coarsely: distances in voxels, below 0 where solid is
