@@ -23,6 +23,7 @@
 #include "apps/command.h"
 #include "apps/help.h"
 #include "apps/terminal.h"
+#include "apps/version.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "engine/engine.h"
@@ -122,7 +123,9 @@ int main(int argc, char** argv) {
               kExampleEndings + ") or a bundled scene, by its name.",
           0)};
   app.name("exemplar");
-  app.set_version_flag("--version", EXEMPLAR_VERSION);
+  app.set_version_flag(
+      "--version", EXEMPLAR_VERSION,
+      "print version, libraries and machine and exit; --version --json for programs");
   app.formatter(std::make_shared<HelpFormatter>());
   app.footer(examplesFooter({"synth chainmail -o more.glb --preview more.png",
                              "synth wall.obj -o wall_more.obj --scale 3,1,1", "synth --help"}));
@@ -138,6 +141,13 @@ int main(int argc, char** argv) {
   if (given.empty()) {
     std::fputs(app.help().c_str(), stdout);
     return kDone;
+  }
+  if (given.front() == "--version" && given.size() <= 2) {
+    const bool json = given.size() == 2 && given.back() == "--json";
+    if (json || given.size() == 1) {
+      std::fputs((json ? versionJson() : versionText()).c_str(), stdout);
+      return kDone;
+    }
   }
   try {
     std::vector<std::string> words = spelledOut(given);

@@ -33,7 +33,10 @@ Command addSdfCommand(CLI::App& app) {
                             terminal.progress().part(0, 0.9));
             for (const std::string& warning : example.warnings) terminal.warn(warning);
             terminal.progress().report("writing " + options->output, 0.9);
-            writeVdb(options->output, example.field(), example.continues, example.turn);
+            writeVdb(options->output, example.field(),
+                     {.wraps = example.continues,
+                      .turn = example.turn,
+                      .yUp = example.reading.mesh.up == UpAxis::Y});
             terminal.say("example", example.description);
             terminal.wrote(
                 "field", options->output,

@@ -18,6 +18,7 @@
 #include "core/file.h"
 #include "core/json_text.h"
 #include "core/memory.h"
+#include "core/platform.h"
 #include "engine/engine.h"
 #include "engine/json.h"
 #include "engine/measured.h"
@@ -34,7 +35,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> examples, with, outputs;
-  std::string engine, preview, stats, origins, report, layers;
+  std::string engine, preview, stats, origins, report, layers, pieces;
   int results = 1;
   bool open = false;
   Settings settings;
@@ -96,6 +97,7 @@ void checkOutputs(const Options& options, Form form, int lods) {
   if (!options.origins.empty()) requireOutput(options.origins, ".vdb");
   if (!options.report.empty()) requireOutput(options.report, ".html");
   if (!options.layers.empty()) requireOutput(options.layers, ".png");
+  if (!options.pieces.empty()) requireOutput(options.pieces, ".glb");
   Paths inputs(options.examples.begin(), options.examples.end());
   inputs.insert(inputs.end(), options.with.begin(), options.with.end());
   for (const char* key :
@@ -116,6 +118,7 @@ void checkOutputs(const Options& options, Form form, int lods) {
       if (!file->empty()) files.emplace_back(*file);
     if (!own.layers.empty()) files.push_back(exampleLayersPath(own.layers));
   }
+  if (!options.pieces.empty()) files.emplace_back(options.pieces);
   requireDistinct(files, inputs);
 }
 
@@ -141,6 +144,8 @@ Plan planOf(const Options& options) {
     throw InputError("--report: a page shows surfaces, and a map has none; leave it out");
   if (!options.origins.empty() && form != Form::Field)
     throw InputError("--origins: only results of distance fields have them; leave it out");
+  if (!options.pieces.empty() && form != Form::Labels)
+    throw InputError("--pieces: only model synthesis places pieces; leave it out");
   if (!options.report.empty() && settings.has("frames"))
     throw InputError("--report: a page shows one frame; leave out `frames` or --report");
 
@@ -173,7 +178,7 @@ void checkExtent(const Options& options, const Plan& plan, std::span<const Examp
     requireKept(numbered(options, result).outputs, plan.surface.lods, examples);
   const Vec3i size = plan.engine->extentOf(examples, plan.request);
   for (const std::string& output : options.outputs)
-    requireOutputFits(output, plan.engine->form(), size);
+    requireOutputFits(output, examples.front(), size);
   requireSurface(plan.surface, examples);
 }
 
@@ -382,6 +387,10 @@ void synth(const Options& options, Terminal& terminal) {
 
   std::vector<Example> examples = read(options, plan, terminal);
   times.read = times.total.seconds();
+  if (!options.pieces.empty()) {
+    const Written library = writePieceLibrary(options.pieces, examples.front(), {});
+    terminal.wrote(library.label, library.path, library.text);
+  }
 
   const int count = options.results;
   for (int n = 0; n < count; ++n) {
@@ -399,7 +408,7 @@ void synth(const Options& options, Terminal& terminal) {
     const std::string& shown = !first.report.empty()    ? first.report
                                : !first.preview.empty() ? first.preview
                                                         : first.outputs.front();
-    if (!openForUser(shown)) terminal.warn("--open: nothing here opens " + shown);
+    if (!platform::openOnDesktop(shown)) terminal.warn("--open: nothing here opens " + shown);
   }
   terminal.say("done", readableSeconds(times.total.seconds()) + ", " +
                            readableBytes(static_cast<double>(peakResidentBytes())) +
@@ -468,6 +477,9 @@ Command addSynthCommand(CLI::App& app) {
   command->add_option("--stats", options->stats, "also write figures of the run (.json)");
   command->add_option("--origins", options->origins,
                       "also write where each sample of the result came from (.vdb)");
+  command->add_option(
+      "--pieces", options->pieces,
+      "also write the pieces that a .json or .csv of cells names, each once (.glb)");
   command->add_option("--report", options->report,
                       "also write a page with surfaces that turn, figures and marks (.html)");
   command->add_option(

@@ -3,10 +3,6 @@
 
 #include "apps/terminal.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <csignal>
@@ -15,6 +11,7 @@
 
 #include "apps/command.h"
 #include "core/json_text.h"
+#include "core/platform.h"
 #include "engine/result.h"
 #include "engine/words.h"
 
@@ -23,8 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Version of what `ProgressStyle::Json` writes.
-constexpr int kProtocol = 1;
 /// Progress is shown at most this often.
 constexpr std::chrono::milliseconds kShowEvery{100};
 
@@ -44,12 +39,13 @@ Terminal::Terminal(ProgressStyle style, bool quiet)
       quiet_(quiet),
       progress_([this](std::string_view stage, double fraction) { show(stage, fraction); },
                 &interruptedFlag) {
-  if (style_ == ProgressStyle::Auto && isatty(STDERR_FILENO) != 0) style_ = ProgressStyle::Line;
+  if (style_ == ProgressStyle::Auto && platform::isTerminal(stderr)) style_ = ProgressStyle::Line;
   if (quiet_ && style_ != ProgressStyle::Json) style_ = ProgressStyle::None;
   interruptedFlag.store(false);
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
-  event(jsonText(Json{{"event", "start"}, {"version", EXEMPLAR_VERSION}, {"protocol", kProtocol}}));
+  event(jsonText(
+      Json{{"event", "start"}, {"version", EXEMPLAR_VERSION}, {"protocol", kProgressProtocol}}));
 }
 
 Terminal::~Terminal() {
@@ -150,24 +146,6 @@ void Terminal::fail(const std::string& text, int status, const Conflict* conflic
   } else {
     std::fprintf(stderr, "exemplar: %s\n", line.c_str());
   }
-}
-
-bool openForUser(const std::filesystem::path& path) {
-#ifdef __APPLE__
-  std::string opener = "open";
-#else
-  std::string opener = "xdg-open";
-#endif
-  std::string file = std::filesystem::absolute(path).string();
-  char* words[] = {opener.data(), file.data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
-  pid_t process = 0;
-  const int failed = posix_spawnp(&process, opener.c_str(), &actions, nullptr, words, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  return failed == 0;
 }
 
 std::string Terminal::interruption() const {

@@ -17,6 +17,9 @@ namespace exemplar {
 
 struct Conflict;
 
+/// Version of what `ProgressStyle::Json` writes (docs/progress.md).
+inline constexpr int kProgressProtocol = 1;
+
 /// How progress is shown on standard error.
 enum class ProgressStyle {
   Auto,  ///< Line on a terminal; elsewhere each stage is named once, when it first begins
@@ -76,10 +79,6 @@ class Terminal {
   std::vector<std::string> warnings_, written_;
   Progress progress_;
 };
-
-/// Opens a file with whatever the desktop opens files of its kind with, and does not wait. False
-/// where there is nothing that would.
-bool openForUser(const std::filesystem::path& path);
 
 /// Seconds since it was made.
 class Stopwatch {

@@ -3,20 +3,16 @@
 
 #include "core/file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <tuple>
+#include <system_error>
 #include <utility>
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/platform.h"
 #include "core/text.h"
 
 namespace exemplar {
@@ -43,31 +39,14 @@ fs::path followed(fs::path path) {
   return path;
 }
 
-/// A hidden name beside `place`, of this process alone.
-fs::path besideName(const fs::path& place) {
-  static std::atomic<unsigned> counter{0};
-  return fs::path(place).replace_filename("." + place.stem().string() + "." +
-                                          std::to_string(getpid()) + "." +
-                                          std::to_string(counter++) + place.extension().string());
-}
-
-/// A file without a name in the folder of `place`, or -1 where that cannot be.
-int openNameless([[maybe_unused]] const fs::path& place) {
-#ifdef O_TMPFILE
-  const fs::path folder = place.has_parent_path() ? place.parent_path() : fs::path(".");
-  const int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-  if (descriptor < 0) return -1;
-  // It is named through /proc, which is not everywhere.
-  if (access(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), F_OK) == 0) return descriptor;
-  close(descriptor);
-#endif
-  return -1;
-}
-
-/// Gives a file without a name one; false, with `errno`, where that name is taken or cannot be.
-bool nameIt(int descriptor, const fs::path& name) {
-  const std::string file = "/proc/self/fd/" + std::to_string(descriptor);
-  return linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+/// Does what the system may refuse with `std::system_error`.
+template <class Step>
+void attempt(const fs::path& path, const Step& step) {
+  try {
+    step();
+  } catch (const std::system_error& e) {
+    fail(path, "cannot be written", e.code().value());
+  }
 }
 
 }  // namespace
@@ -97,72 +76,37 @@ std::string readFile(const fs::path& path, const Progress& progress) {
 
 std::string lowerExtension(const fs::path& path) { return lowerCase(path.extension().string()); }
 
-OutputFile::OutputFile(fs::path path) : path_(std::move(path)), place_(followed(path_)) {
+OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
+  const fs::path place = followed(path_);
   std::error_code error;
-  const fs::file_status there = fs::status(place_, error);
+  const fs::file_status there = fs::status(place, error);
   if (there.type() == fs::file_type::none) fail(path_, "cannot be written", error.value());
   if (path_.filename().empty() || fs::is_directory(there))
     fail(path_, "cannot be written: it is a folder", 0);
   if (fs::exists(there) && !fs::is_regular_file(there))
     fail(path_, "cannot be written: it is not a regular file", 0);
-  if (fs::exists(there) && faccessat(AT_FDCWD, place_.c_str(), W_OK, AT_EACCESS) != 0)
-    fail(path_, "cannot be written", errno);
-  descriptor_ = openNameless(place_);
-  if (descriptor_ < 0) {
-    temporary_ = besideName(place_);
-    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fs::exists(there)) {
+    if (const std::error_code refused = platform::mayWrite(place))
+      fail(path_, "cannot be written", refused.value());
   }
-  if (descriptor_ < 0) {
-    temporary_.clear();
-    fail(path_, "cannot be written", errno);
-  }
+  attempt(path_, [&] { file_ = std::make_unique<platform::UnseenFile>(place); });
   // What is overwritten keeps its permissions; where that is not possible it has the usual ones.
-  if (fs::exists(there))
-    std::ignore = fchmod(descriptor_, static_cast<mode_t>(there.permissions()));
+  if (fs::exists(there)) file_->setPermissions(there.permissions());
 }
 
-OutputFile::~OutputFile() {
-  if (descriptor_ >= 0) close(descriptor_);
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
-}
+OutputFile::~OutputFile() = default;
 
 void OutputFile::write(std::string_view bytes, const Progress& progress) {
-  if (ftruncate(descriptor_, 0) != 0 || lseek(descriptor_, 0, SEEK_SET) != 0)
-    fail(path_, "cannot be written", errno);
-  std::size_t done = 0;
-  while (done < bytes.size()) {
+  attempt(path_, [&] { file_->clear(); });
+  for (std::size_t done = 0; done < bytes.size(); done += kPiece) {
     progress.report("writing", static_cast<double>(done) / static_cast<double>(bytes.size()));
-    const ssize_t n =
-        ::write(descriptor_, bytes.data() + done, std::min(bytes.size() - done, kPiece));
-    if (n == 0) fail(path_, "cannot be written", EIO);
-    if (n < 0 && errno != EINTR) fail(path_, "cannot be written", errno);
-    if (n > 0) done += static_cast<std::size_t>(n);
+    attempt(path_, [&] { file_->append(bytes.substr(done, kPiece)); });
   }
   progress.report("writing", 1);
 }
 
 void OutputFile::commit() {
-  if (temporary_.empty() && !nameIt(descriptor_, place_)) {
-    // Something is there: it is replaced at once, by a file that has a name beside it.
-    temporary_ = besideName(place_);
-    if (!nameIt(descriptor_, temporary_)) {
-      const int error = errno;
-      temporary_.clear();
-      fail(path_, "cannot be written", error);
-    }
-  }
-  std::error_code error;
-  if (!temporary_.empty()) fs::rename(temporary_, place_, error);
-  if (error) fail(path_, "cannot be written", error.value());
-  temporary_.clear();
-  // Some file systems say only now that a disk is full.
-  const int closed = close(std::exchange(descriptor_, -1));
-  if (closed != 0 && errno != EINTR) {
-    const int reason = errno;
-    fs::remove(place_, error);
-    fail(path_, "cannot be written", reason);
-  }
+  attempt(path_, [&] { file_->moveIntoPlace(); });
 }
 
 void writeFile(const fs::path& path, std::string_view bytes, const Progress& progress) {

@@ -5,12 +5,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "core/progress.h"
 
 namespace exemplar {
+
+namespace platform {
+class UnseenFile;
+}
 
 /// The whole content of a file. Throws `InputError` when it is not a readable regular file, is
 /// empty, or is longer than the memory that is available. Throws `Cancelled`.
@@ -20,7 +25,7 @@ std::string readFile(const std::filesystem::path& path, const Progress& progress
 std::string lowerExtension(const std::filesystem::path& path);
 
 /// A file that is whole or not there, whatever ends the program: until `commit` it has no name
-/// where the file system can do without (`O_TMPFILE`), else a hidden one beside its place. What is
+/// where the file system can do without, else a hidden one beside its place. What is
 /// there already stays until then and keeps its permissions; a link is followed.
 ///
 ///     OutputFile out(path);
@@ -43,10 +48,8 @@ class OutputFile {
   void commit();
 
  private:
-  std::filesystem::path path_;       ///< as it was given
-  std::filesystem::path place_;      ///< where the file will be
-  std::filesystem::path temporary_;  ///< its name before; empty where it has none
-  int descriptor_ = -1;
+  std::filesystem::path path_;  ///< as it was given
+  std::unique_ptr<platform::UnseenFile> file_;
 };
 
 /// An `OutputFile` written and put in its place at once.

@@ -4,12 +4,9 @@
 #include "core/huge_pages.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <new>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
+#include "core/platform.h"
 
 namespace exemplar {
 
@@ -22,16 +19,13 @@ constexpr std::size_t kLine = 64;
 
 void* allocateInHugePages(std::size_t bytes) {
   const bool huge = bytes >= kHugePage;
-  void* memory = nullptr;
-  if (posix_memalign(&memory, huge ? kHugePage : kLine, std::max(bytes, kLine)) != 0)
-    throw std::bad_alloc();
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-  // Advice: whether it is taken changes nothing but speed. The last, broken page stays as it is.
-  if (huge) madvise(memory, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
-#endif
+  void* const memory = platform::allocateAligned(std::max(bytes, kLine), huge ? kHugePage : kLine);
+  if (memory == nullptr) throw std::bad_alloc();
+  // The last, broken page stays as it is.
+  if (huge) platform::adviseHugePages(memory, bytes / kHugePage * kHugePage);
   return memory;
 }
 
-void freeHugePages(void* memory) noexcept { std::free(memory); }
+void freeHugePages(void* memory) noexcept { platform::freeAligned(memory); }
 
 }  // namespace exemplar

@@ -313,7 +313,7 @@ Json makeRun(const Example& example, const ComparisonOptions& options,
   turn(made.mesh, example.turn);
   writeMesh(folder / (name + ".glb"), made.mesh, options.mesh);
   writePng(folder / (name + ".png"), image);
-  writeVdb(folder / (name + ".vdb"), made.field, {}, example.turn);
+  writeVdb(folder / (name + ".vdb"), made.field, {.turn = example.turn});
   if (origins) {
     writeOriginsVdb(folder / (name + "-origins.vdb"), made.origins, made.field,
                     {.turn = example.turn, .scale = scale});

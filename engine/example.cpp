@@ -21,7 +21,8 @@ constexpr Range kAir{0, 1024};
 SettingTable<ReadOptions>::Row meshUpRow() {
   return choiceRow<ReadOptions, UpAxis>(
       "up", [](ReadOptions& o) -> UpAxis& { return o.mesh.up; },
-      "which axis is up in mesh files: y for .obj and .glb, else z, where it is auto",
+      "which axis is up in files of meshes and volumes: y for .obj and .glb, else z, where it is "
+      "auto",
       {{"auto", UpAxis::Default}, {"y", UpAxis::Y}, {"z", UpAxis::Z}});
 }
 
@@ -83,6 +84,7 @@ void warnOfUnused(Example& example) {
   use("scatter", o.scatter, !labels && (mesh || kind == SourceKind::Volume));
   use("align", o.align != usual.align, !labels && mesh);
   use("scene-seed", o.sceneSeed.has_value(), scene);
+  use("scene-extent", o.sceneExtent.has_value(), scene);
   use("cell-size", o.cellSize.has_value(), heights);
   use("height-scale", o.heightScale.has_value(), heights);
   use("grid", !o.grid.empty(), kind == SourceKind::Volume);
@@ -128,6 +130,11 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
                          "another sample of a scene's own random process", kFromZero, "",
                          "the scene's");
   };
+  const auto sceneExtent = [] {
+    return settingRow<O>("scene-extent", &O::sceneExtent,
+                         "a larger sample of a scene's own random process, in its boxes", {1, 16},
+                         "", "1,1,1");
+  };
   const auto cellSize = [] {
     return settingRow<O>("cell-size", &O::cellSize,
                          "distance of a height map's points, where the file does not say",
@@ -170,6 +177,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
           "straight, and the result back, or nothing",
           {{"auto", Align::Auto}, {"none", Align::None}}),
       sceneSeed(),
+      sceneExtent(),
       cellSize(),
       heightScale(),
       grid(),
@@ -220,6 +228,7 @@ const SettingTable<ReadOptions>& readingSettings(Form form) {
           "agree in them (0: blocks tile, and are neighbors as in the example)",
           {0, 63}, "samples"),
       sceneSeed(),
+      sceneExtent(),
       cellSize(),
       heightScale(),
       grid(),
@@ -293,7 +302,8 @@ MeshFileOptions meshReading(Example& example) {
 }
 
 Scene readSceneOf(const Source& source, const ReadOptions& options, const Progress& progress) {
-  const SceneOptions scene{.seed = options.sceneSeed};
+  const SceneOptions scene{.seed = options.sceneSeed,
+                           .extent = options.sceneExtent.value_or(Vec3d{1, 1, 1})};
   if (const std::string* bytes = source.inMemory<std::string>())
     return readScene(*bytes, source.name(), scene, progress);
   return readScene(findScene(source.name()), scene, progress);

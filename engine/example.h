@@ -100,6 +100,7 @@ struct ReadOptions {
   Align align = Align::Auto;
 
   std::optional<std::uint64_t> sceneSeed;  ///< another sample of a scene's random process
+  std::optional<Vec3d> sceneExtent;        ///< a larger sample of it, in its boxes, each 1..16
   MeshFileOptions mesh;
   std::optional<double> cellSize;     ///< world distance of a height map's points, > 0
   std::optional<double> heightScale;  ///< world height of one step of its integers, > 0

@@ -40,7 +40,8 @@ Region readRegion(const Source& source, double voxelSize, const ReadOptions& rea
                                {.voxelSize = voxelSize, .padding = kRegionPadding}, progress);
       return region;
     default:
-      region.field = readDistances(source, {.turn = &region.turn});
+      region.field =
+          readDistances(source, {.turn = &region.turn, .yUp = reading.mesh.up == UpAxis::Y});
       return region;
   }
 }

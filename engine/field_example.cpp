@@ -27,28 +27,35 @@ std::string triangleCount(const TriangleMesh& mesh) {
   return withThousands(static_cast<long long>(mesh.triangles.size())) + " triangles";
 }
 
-/// Samples along a scene's longest side: a whole number to each of its cells, where it has any, so
-/// that what is equal in the scene is equal in the field.
-int usualResolution(const Scene& scene) {
-  if (!scene.cell) return scene.resolution;
+/// Samples along a scene's longest side, with the same voxels however large a sample of it is: a
+/// whole number to each of its cells, where it has any, so that what is equal in the scene is equal
+/// in the field.
+int usualResolution(const Scene& scene, const Vec3d& extent) {
   const Vec3d size = scene.box.size();
   int longest = 0;
-  for (int axis = 1; axis < 3; ++axis)
+  double base = 0;  // the longest side of one box
+  for (int axis = 0; axis < 3; ++axis) {
     if (size[axis] > size[longest]) longest = axis;
+    base = std::max(base, size[axis] / extent[axis]);
+  }
+  if (!scene.cell) return static_cast<int>(std::lround(scene.resolution * size[longest] / base));
   const int cells =
       std::max(1, static_cast<int>(std::lround(size[longest] / (*scene.cell)[longest])));
-  return cells * std::max(1, static_cast<int>(std::lround(1.0 * scene.resolution / cells)));
+  const double wanted = scene.resolution * size[longest] / base;
+  return cells * std::max(1, static_cast<int>(std::lround(wanted / cells)));
 }
 
 void sampleScene(Example& example, const Progress& progress) {
   const ReadOptions& options = example.reading;
   Scene scene = readSceneOf(example.source, options, progress.part(0, 0.2));
-  example.data = meshToSdf(scene.mesh,
-                           {.resolution = options.resolution.value_or(usualResolution(scene)),
-                            .box = scene.box,
-                            .padding = options.padding.value_or(0),
-                            .halfWidth = kExampleHalfWidth},
-                           progress.part(0.2, 1));
+  const Vec3d extent = options.sceneExtent.value_or(Vec3d{1, 1, 1});
+  example.data =
+      meshToSdf(scene.mesh,
+                {.resolution = options.resolution.value_or(usualResolution(scene, extent)),
+                 .box = scene.box,
+                 .padding = options.padding.value_or(0),
+                 .halfWidth = kExampleHalfWidth},
+                progress.part(0.2, 1));
   example.description = "scene " + scene.name + ", " + triangleCount(scene.mesh);
   example.hints = {scene.scale, scene.block};
   example.mesh = std::move(scene.mesh);
@@ -80,10 +87,12 @@ void sampleHeights(Example& example, const Progress& progress) {
 }
 
 void takeVolume(Example& example, const Progress& progress) {
-  example.data = readDistances(
-      example.source,
-      {.grid = example.reading.grid, .warnings = &example.warnings, .turn = &example.turn},
-      &example.continues, progress);
+  example.data = readDistances(example.source,
+                               {.grid = example.reading.grid,
+                                .warnings = &example.warnings,
+                                .turn = &example.turn,
+                                .yUp = example.reading.mesh.up == UpAxis::Y},
+                               &example.continues, progress);
   example.hints.scale = {2, 2, 2};
   example.description = "volume";
   if (example.continues.any())

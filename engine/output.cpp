@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
+#include "engine/placed_cells.h"
 #include "engine/words.h"
 #include "mesh/face_outlines.h"
 #include "mesh/gif.h"
@@ -20,6 +21,7 @@
 #include "sdf/vdb_file.h"
 #include "synth/continuous/flat.h"
 #include "voxelize/label_file.h"
+#include "voxelize/piece_library.h"
 
 namespace exemplar {
 namespace {
@@ -105,7 +107,7 @@ Written writeMap(const fs::path& path, const Map& map, const OutputOptions& opti
 }
 
 Written writeField(const fs::path& path, const Result& result, const Example& example,
-                   const Progress& progress) {
+                   const OutputOptions& options, const Progress& progress) {
   Written written{path, "field", path.string(), {}};
   if (isHeightMapFile(path)) {
     written.label = "heights";
@@ -119,7 +121,11 @@ Written writeField(const fs::path& path, const Result& result, const Example& ex
                    {.heightScale = example.reading.heightScale, .warnings = &written.warnings},
                    progress.part(0.5, 1));
   } else {
-    writeVdb(path, result.field(), result.periodic, turnOf(result, example), progress);
+    writeVdb(path, result.field(),
+             {.wraps = result.periodic,
+              .turn = turnOf(result, example),
+              .yUp = options.mesh.up == UpAxis::Y},
+             progress);
   }
   return written;
 }
@@ -167,7 +173,7 @@ const char* outputEndings(Form form) {
     case Form::Field:
       return ".obj .ply .stl .off .glb .gltf .vdb .asc .tif .exr .png .pgm .r16";
     case Form::Labels:
-      return ".txt .vox .vdb .png .tmx .csv .obj .ply .stl .off .glb .gltf .gif";
+      return ".txt .vox .vdb .png .tmx .csv .json .obj .ply .stl .off .glb .gltf .gif";
     case Form::Map:
       return ".png";
     case Form::Polygons:
@@ -248,8 +254,10 @@ void requireOutputKind(const fs::path& path, bool hasFrames, bool instances) {
   }
 }
 
-void requireOutputFits(const fs::path& path, Form form, const Vec3i& size) {
-  const bool tiles = isTiledFile(path);
+void requireOutputFits(const fs::path& path, const Example& example, const Vec3i& size) {
+  const Form form = example.form();
+  const bool pieces = std::holds_alternative<ModelPieces>(example.content);
+  const bool tiles = isTiledFile(path) && !(pieces && endsWith(path, ".csv"));
   if (form == Form::Labels && (endsWith(path, ".png") || tiles) && size.z != 1) {
     throw InputError(path.string() + (tiles ? ": a map of tiles" : ": a picture") +
                      " has one layer, and the result " + std::to_string(size.z) +
@@ -277,7 +285,7 @@ Written writeResult(const fs::path& path, const Result& result, std::span<const 
   }
   if (result.form() == Form::Map) return writeMap(path, result.map(), options);
   if (result.form() == Form::Heights) return writeHeights(path, result, example, progress);
-  if (result.form() == Form::Field) return writeField(path, result, example, progress);
+  if (result.form() == Form::Field) return writeField(path, result, example, options, progress);
   if (result.form() == Form::Polygons) return writeDrawing(path, result.polygons());
   if (!result.laterFrames.empty()) return writeFrames(path, result, example, options, progress);
   OutputOptions written = options;
@@ -297,6 +305,16 @@ std::vector<Written> writeLods(const fs::path& path, const Surface& surface,
                                      progress.part(n / count, (n + 1) / count)));
   }
   return written;
+}
+
+Written writePieceLibrary(const fs::path& path, const Example& example, const Progress& progress) {
+  const auto* pieces = std::get_if<ModelPieces>(&example.content);
+  if (!pieces) {
+    throw InputError("pieces: " + example.name() +
+                     " is not cut into model pieces; use a scene of pieces, or a mesh with `cell`");
+  }
+  const std::size_t count = exemplar::writePieceLibrary(path, *pieces, progress);
+  return {path, "pieces", path.string() + ": " + std::to_string(count) + " meshes", {}};
 }
 
 Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& example,
@@ -320,14 +338,18 @@ Written writeLabels(const fs::path& path, const LabelGrid& grid, const Example& 
       labeled && endsWith(path, ".vdb")) {
     const PlacedBlocks placed =
         placeBlocks(labeled->field, labeled->blocks, grid.cells, progress.part(0, 0.5));
-    writeVdb(path, placed.field, {}, example.turn, progress.part(0.5, 1));
+    writeVdb(path, placed.field, {.turn = example.turn, .yUp = options.mesh.up == UpAxis::Y},
+             progress.part(0.5, 1));
     return {path,
             "written",
             path.string() + ": distances, " + readableSize(placed.field.size(), "samples"),
             {}};
   }
-  if (const auto* image = std::get_if<ImageLabels>(&example.content);
-      image && endsWith(path, ".png")) {
+  if (endsWith(path, ".json") || (pieces && endsWith(path, ".csv"))) {
+    const bool json = endsWith(path, ".json");
+    writeFile(path, json ? placedCellsJson(grid, pieces) : placedCellsCsv(grid, *pieces), progress);
+  } else if (const auto* image = std::get_if<ImageLabels>(&example.content);
+             image && endsWith(path, ".png")) {
     writePng(path, imageFromLabels(grid, *image, progress, options.periodic));
   } else if (const auto* tiles = std::get_if<TiledMap>(&example.content);
              tiles && isTiledFile(path)) {

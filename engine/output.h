@@ -27,7 +27,7 @@ const char* outputEndings(Form form);
 inline constexpr const char* kMeshEndings = ".obj .ply .stl .off .glb .gltf";
 /// The endings that grids of labels are written to.
 inline constexpr const char* kLabelOutputEndings =
-    ".txt .vox .vdb .png .tmx .csv .obj .ply .stl .off .glb .gltf";
+    ".txt .vox .vdb .png .tmx .csv .json .obj .ply .stl .off .glb .gltf";
 
 /// Refuses an output whose ending is none of `endings` (".obj .ply"), or whose folder does not
 /// exist or cannot be written, before any work is done.
@@ -51,8 +51,9 @@ void requireKept(std::span<const std::string> outputs, int lods, std::span<const
 
 /// Refuses an output that cannot hold instances, or that needs frames where the result has none.
 void requireOutputKind(const std::filesystem::path& path, bool hasFrames, bool instances);
-/// Refuses an output that cannot hold a result of `size`: a picture has one layer.
-void requireOutputFits(const std::filesystem::path& path, Form form, const Vec3i& size);
+/// Refuses an output that cannot hold a result of `size` of an example: a picture has one layer.
+void requireOutputFits(const std::filesystem::path& path, const Example& example,
+                       const Vec3i& size);
 
 struct OutputOptions {
   MeshFileOptions mesh;
@@ -87,7 +88,14 @@ Written writeResult(const std::filesystem::path& path, const Result& result,
 std::vector<Written> writeLods(const std::filesystem::path& path, const Surface& surface,
                                const OutputOptions& options = {}, const Progress& progress = {});
 
-/// Writes a grid of an example's labels in the format of the path's ending.
+/// Writes the model pieces of an example as a library, a `.glb` of one mesh for each of
+/// `pieceForms`, beside a result's cells in `.json` or `.csv`. Throws `InputError` where the
+/// example is not made of pieces.
+Written writePieceLibrary(const std::filesystem::path& path, const Example& example,
+                          const Progress& progress = {});
+
+/// Writes a grid of an example's labels in the format of the path's ending: `.json`, and `.csv`
+/// where the example is cut into model pieces, hold what an engine of games places (docs/hosts.md).
 Written writeLabels(const std::filesystem::path& path, const LabelGrid& grid,
                     const Example& example, const OutputOptions& options = {},
                     const Progress& progress = {});

@@ -3,14 +3,13 @@
 
 #include "engine/world_file.h"
 
-#include <gnu/libc-version.h>
-
 #include <charconv>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/json_text.h"
+#include "core/platform.h"
 #include "engine/json.h"
 
 namespace exemplar {
@@ -99,17 +98,7 @@ void writeWorldFile(const std::filesystem::path& world, const WorldFile& file) {
 }
 
 std::string machineFingerprint() {
-  std::string text = "exemplar " EXEMPLAR_VERSION ", " __VERSION__ ", glibc ";
-  text += gnu_get_libc_version();
-#if defined(__x86_64__)
-  text += ", x86-64";
-  if (__builtin_cpu_supports("avx2")) text += " avx2";
-  if (__builtin_cpu_supports("fma")) text += " fma";
-  if (__builtin_cpu_supports("avx512f")) text += " avx512f";
-#elif defined(__aarch64__)
-  text += ", aarch64";
-#endif
-  return text;
+  return "exemplar " EXEMPLAR_VERSION ", " __VERSION__ ", " + platform::arithmetic();
 }
 
 }  // namespace exemplar

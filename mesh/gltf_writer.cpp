@@ -80,6 +80,7 @@ class GlbWriter {
       }
       const Vec3d shift = toFileAxes(p.translation + offset_, yUp_);
       nodes.push_back({{"mesh", meshOf[p.part]}, {"translation", {shift.x, shift.y, shift.z}}});
+      if (!instances.names.empty()) nodes.back()["name"] = instances.names[p.part];
     }
     start(std::move(nodes));
     std::vector<std::uint32_t> partOf(meshes_);
@@ -91,7 +92,9 @@ class GlbWriter {
       part_ = &alone;
       meshes.push_back(addPrimitives());
       meshes.back()["name"] =
-          (mesh_.name.empty() ? "piece" : mesh_.name) + "_" + std::to_string(part);
+          instances.names.empty()
+              ? (mesh_.name.empty() ? "piece" : mesh_.name) + "_" + std::to_string(part)
+              : instances.names[part];
     }
     part_ = &mesh_;
     json_["meshes"] = std::move(meshes);

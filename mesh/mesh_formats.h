@@ -83,6 +83,8 @@ struct MeshInstances {
   };
   std::vector<std::uint32_t> first;  ///< each part's first triangle, and the number of triangles
   std::vector<Placement> placements;
+  /// Of each part, for its mesh and its nodes; none: meshes are numbered and nodes have no name.
+  std::vector<std::string> names;
 };
 /// A `.glb` with a mesh for each part that has triangles and is placed, and a node for each place.
 std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp,

@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/platform.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/procedural/piece_scenes.h"
 #include "mesh/procedural/processes.h"
@@ -214,10 +215,8 @@ std::vector<fs::path> sceneFolders() {
   std::vector<fs::path> folders;
   if (const char* own = std::getenv("EXEMPLAR_SCENES")) folders.emplace_back(own);
   // Where an installed command finds its own, wherever it was moved to.
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  if (!program.empty())
-    folders.push_back(program.parent_path().parent_path() / "share/exemplar/scenes");
+  if (const auto program = platform::programFile())
+    folders.push_back(program->parent_path().parent_path() / "share/exemplar/scenes");
 #ifdef EXEMPLAR_SOURCE_SCENES
   folders.emplace_back(EXEMPLAR_SOURCE_SCENES);
 #endif

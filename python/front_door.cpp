@@ -15,6 +15,7 @@
 #include "engine/json.h"
 #include "engine/measured.h"
 #include "engine/output.h"
+#include "engine/page.h"
 #include "engine/realize.h"
 #include "mesh/scene.h"
 #include "python/shared.h"
@@ -22,15 +23,6 @@
 
 namespace exemplar::python {
 namespace {
-
-/// A path, or what is in memory.
-Source sourceOf(const py::object& given) {
-  if (py::isinstance<TriangleMesh>(given)) return Source::of(given.cast<const TriangleMesh&>());
-  if (py::isinstance<DistanceField>(given)) return Source::of(given.cast<const DistanceField&>());
-  if (py::isinstance<LabelGrid>(given)) return Source::of(given.cast<const LabelGrid&>());
-  if (py::isinstance<HeightMap>(given)) return Source::of(given.cast<const HeightMap&>());
-  return Source(given.cast<std::filesystem::path>());
-}
 
 Extent extentOf(const Given& given) { return requestOf(settingsOf(given)).extent; }
 
@@ -63,19 +55,11 @@ SharedExample readOne(const py::object& given, const std::string& engine, const 
   });
 }
 
-/// A result with its examples, and its surface once it was asked for.
-struct Made {
-  Result result;
-  std::vector<Example> examples;
-  ReadOptions reading;
-
-  std::span<const Example> all() const { return examples; }
-};
 using SharedMade = std::shared_ptr<const Made>;
 
 SharedMade synthesizeAll(const std::vector<SharedExample>& given, const std::string& engineName,
                          const Given& texts, const py::object& keep, const py::object& guide,
-                         int detail, const Waiting& waiting) {
+                         const py::object& on, int detail, const Waiting& waiting) {
   if (given.empty()) throw InputError("synthesize: an example is wanted");
   Settings settings = settingsOf(texts);
   const Engine& engine = engineName.empty() || engineName == "auto"
@@ -85,6 +69,7 @@ SharedMade synthesizeAll(const std::vector<SharedExample>& given, const std::str
   Request request = requestOf(settings);
   if (!keep.is_none()) request.decided.keep = sourceOf(keep);
   if (!guide.is_none()) request.guide = sourceOf(guide);
+  if (!on.is_none()) request.on = sourceOf(on);
   request.reading = given.front()->reading;
   engine.check(request, given.size());
   if (detail < 1 || detail > 16) throw InputError("`detail`: 1 to 16 is wanted");
@@ -116,9 +101,8 @@ SharedMade synthesizeAll(const std::vector<SharedExample>& given, const std::str
   });
 }
 
-py::object loaded(const Json& json) {
-  return py::module_::import("json").attr("loads")(
-      json.dump(-1, ' ', false, Json::error_handler_t::replace));
+std::string textOf(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 SurfaceOptions surfaceOf(const Made& made, const Given& given) {
@@ -176,11 +160,61 @@ py::object measuresOf(const Made& made, const Waiting& waiting) {
     Json all = Json::object();
     if (const auto measures = measure(made.result, made.all(), nullptr, progress.part(0, 0.7)))
       all.update(toJson(figures(*measures)));
-    if (const auto content = measureContent(made.result, made.all(), progress.part(0.7, 1)))
+    if (const auto content = measureContent(made.result, made.all(), progress.part(0.7, 0.9)))
       all.update(toJson(figures(*content)));
+    if (const auto terrain = measureTerrain(made.result, made.all(), progress.part(0.9, 1)))
+      all.update(toJson(figures(*terrain)));
     return all;
   });
-  return loaded(json);
+  return loaded(textOf(json));
+}
+
+/// Figures of something that is no `Result`, against an example.
+py::object measuresOfOther(const SharedExample& example, const py::object& given,
+                           const py::object& origins, const py::object& mesh,
+                           const Waiting& waiting) {
+  const Source result = sourceOf(given);
+  requireThere(result);
+  const bool labels = example->form() == Form::Labels;
+  if (!labels && example->form() != Form::Field)
+    throw InputError("measure: an example of distances or of labels is wanted, or a `Result`");
+  Origins cells = originsOf(origins);
+  std::optional<TriangleMesh> surface;
+  if (!mesh.is_none()) surface = mesh.cast<const TriangleMesh&>();
+  const Json json = unlocked(waiting, [&](const Progress& progress) {
+    if (labels) return toJson(figures(measureContent(result, *example, progress)));
+    Measured measured = readMeasured(result, {}, {}, *example, progress.part(0, 0.3));
+    if (!cells.empty()) measured.origins = std::move(cells);
+    if (surface) measured.mesh = std::move(surface);
+    return toJson(figures(measure(measured, *example, progress.part(0.3, 1))));
+  });
+  return loaded(textOf(json));
+}
+
+/// The page of a result beside its example.
+void reportTo(const Made& made, const std::filesystem::path& path, const Waiting& waiting) {
+  requireOutput(path, ".html");
+  const Example& example = made.examples.front();
+  runUnlocked(waiting, [&](const Progress& progress) {
+    const Surface surface = realize(made.result, made.all(), {}, progress.part(0, 0.3));
+    Json run = {{"engine", made.result.engine}, {"seed", made.result.seed}};
+    if (const auto measures =
+            measure(made.result, made.all(), &surface.mesh, progress.part(0.3, 0.6)))
+      run["figures"] = toJson(figures(*measures));
+    if (const auto content = measureContent(made.result, made.all(), progress.part(0.6, 0.65)))
+      run["figures"].update(toJson(figures(*content)));
+    const TriangleMesh whole = pictured(example, progress.part(0.65, 0.7));
+    const std::optional<SampledResult> samples = sampled(made.result, example);
+    const auto* labeled = std::get_if<LabeledField>(&example.content);
+    ResultPage page{path, example.source.path(), example.description, whole, surface.mesh};
+    page.turn = example.turn;
+    if (samples) {
+      page.exampleField = labeled ? &labeled->field : &example.field();
+      page.field = &samples->field;
+      page.origins = &samples->origins;
+    }
+    writePage(page, std::move(run), {}, progress.part(0.7, 1));
+  });
 }
 
 template <class T>
@@ -204,6 +238,7 @@ void addData(Class& type, const Get& data) {
   };
   of("field", std::type_identity<DistanceField>{}, "Its distances, or None.");
   of("labels", std::type_identity<LabelGrid>{}, "Its labels, or None.");
+  of("heights", std::type_identity<HeightMap>{}, "Its heights, or None.");
 }
 
 py::list settingsList(const std::vector<Setting>& settings) {
@@ -289,8 +324,8 @@ void addResult(py::module_& module) {
   });
   result.def_property_readonly("engine", [](const Made& m) { return m.result.engine; });
   result.def_property_readonly("seed", [](const Made& m) { return m.result.seed; });
-  result.def_property_readonly("statistics",
-                               [](const Made& m) { return loaded(toJson(m.result.statistics)); });
+  result.def_property_readonly(
+      "statistics", [](const Made& m) { return loaded(textOf(toJson(m.result.statistics))); });
   result.def_property_readonly("notes", [](const Made& m) {
     py::dict of;
     for (const auto& [label, note] : m.result.notes) of[py::str(label)] = note;
@@ -316,30 +351,68 @@ void addResult(py::module_& module) {
              [](const std::shared_ptr<Made>& m, const py::object& progress, int threads) {
                return measuresOf(*m, {progress, threads});
              });
-  result.def("_detail", [](const std::shared_ptr<Made>& m, int factor, const py::object& progress,
-                           int threads) {
+  result.def("_report", [](const std::shared_ptr<Made>& m, const std::filesystem::path& path,
+                           const py::object& progress, int threads) {
+    reportTo(*m, path, {progress, threads});
+  });
+  result.def_property_readonly("frames", [](const py::object& self) {
+    const auto& made = self.cast<const Made&>();
+    py::list frames;
+    if (made.result.form() != Form::Labels) return frames;
+    const auto add = [&](const LabelGrid& grid) {
+      frames.append(py::cast(&grid, py::return_value_policy::reference_internal, self));
+    };
+    add(made.result.labels());
+    for (const LabelGrid& grid : made.result.laterFrames) add(grid);
+    return frames;
+  });
+  result.def("_detail", [](const std::shared_ptr<Made>& m, int factor,
+                           const std::vector<std::shared_ptr<Example>>& of,
+                           const py::object& progress, int threads) {
     if (factor < 2 || factor > 16) throw InputError("detail: a factor of 2 to 16 is wanted");
     if (m->result.form() != Form::Field)
       throw InputError("detail: only results of distance fields have finer detail");
     return unlocked({progress, threads}, [&](const Progress& p) {
       auto finer = std::make_shared<Made>();
       finer->reading = m->reading;
-      finer->examples = refined(m->examples, factor, p.part(0, 0.4));
+      std::vector<Example> examples = m->examples;
+      if (!of.empty()) {
+        examples.clear();
+        for (const auto& example : of) examples.push_back(*example);
+      }
+      finer->examples = refined(examples, factor, p.part(0, 0.4));
       finer->result = withDetail(m->result, finer->examples, factor, p.part(0.4, 1));
       return finer;
     });
   });
-  module.def("_synthesize", [](const std::vector<std::shared_ptr<Example>>& examples,
-                               const std::string& engine, const Given& settings,
-                               const py::object& keep, const py::object& guide, int detail,
-                               const py::object& progress, int threads) {
-    return std::const_pointer_cast<Made>(synthesizeAll({examples.begin(), examples.end()}, engine,
-                                                       settings, keep, guide, detail,
-                                                       {progress, threads}));
+  module.def("_measure", [](const std::shared_ptr<Example>& example, const py::object& other,
+                            const py::object& origins, const py::object& mesh,
+                            const py::object& progress, int threads) {
+    return measuresOfOther(example, other, origins, mesh, {progress, threads});
   });
+  module.def("_synthesize",
+             [](const std::vector<std::shared_ptr<Example>>& examples, const std::string& engine,
+                const Given& settings, const py::object& keep, const py::object& guide,
+                const py::object& on, int detail, const py::object& progress, int threads) {
+               return std::const_pointer_cast<Made>(
+                   synthesizeAll({examples.begin(), examples.end()}, engine, settings, keep, guide,
+                                 on, detail, {progress, threads}));
+             });
 }
 
 }  // namespace
+
+Source sourceOf(const py::object& given) {
+  if (py::isinstance<TriangleMesh>(given)) return Source::of(given.cast<const TriangleMesh&>());
+  if (py::isinstance<DistanceField>(given)) return Source::of(given.cast<const DistanceField&>());
+  if (py::isinstance<LabelGrid>(given)) return Source::of(given.cast<const LabelGrid&>());
+  if (py::isinstance<HeightMap>(given)) return Source::of(given.cast<const HeightMap&>());
+  return Source(given.cast<std::filesystem::path>());
+}
+
+py::object loaded(const std::string& json) {
+  return py::module_::import("json").attr("loads")(json);
+}
 
 void addEngine(py::module_& module) {
   addExample(module);

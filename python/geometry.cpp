@@ -20,7 +20,6 @@
 #include "preview/render.h"
 #include "python/shared.h"
 #include "reconstruct/decimate.h"
-#include "reconstruct/field_to_mesh.h"
 #include "sdf/height_map.h"
 #include "sdf/mesh_to_sdf.h"
 #include "sdf/redistance.h"
@@ -46,11 +45,26 @@ std::size_t rowsOf(const Dense<T>& array, std::vector<py::ssize_t> shape, const 
   throw InputError(std::string(name) + ": an array of " + text + " is wanted");
 }
 
+SignSource signOf(const std::string& text) {
+  if (text == "auto") return SignSource::Automatic;
+  if (text == "winding") return SignSource::WindingNumber;
+  if (text == "parity") return SignSource::RayParity;
+  if (text == "flood") return SignSource::Flood;
+  throw InputError("`sign` " + text + ": expected auto, winding, parity or flood");
+}
+
 UpAxis upOf(const std::string& text) {
   if (text == "auto") return UpAxis::Default;
   if (text == "y") return UpAxis::Y;
   if (text == "z") return UpAxis::Z;
   throw InputError("`up` " + text + ": expected auto, y or z");
+}
+
+MeshNormals normalsOf(const std::string& text) {
+  if (text == "crease") return MeshNormals::Crease;
+  if (text == "smooth") return MeshNormals::Smooth;
+  if (text == "none") return MeshNormals::None;
+  throw InputError("`normals` " + text + ": expected crease, smooth or none");
 }
 
 std::shared_ptr<TriangleMesh> makeMesh(const Dense<double>& vertices,
@@ -233,13 +247,12 @@ void addMesh(py::module_& module) {
       py::kw_only(), py::arg("triangles") = 0, py::arg("error") = 0.0,
       "A copy with merged triangles: down to a number, or within an error in world units. Of "
       "meshes without materials and colors; Result.mesh(triangles=...) keeps those.");
-  mesh.def("_write",
-           [](const TriangleMesh& m, const std::filesystem::path& path, const std::string& up) {
-             requireOutput(path, kMeshEndings);
-             runUnlocked({}, [&](const Progress& progress) {
-               writeMesh(path, m, {.up = upOf(up)}, progress);
-             });
-           });
+  mesh.def("_write", [](const TriangleMesh& m, const std::filesystem::path& path,
+                        const std::string& up, const std::string& normals) {
+    requireOutput(path, kMeshEndings);
+    const MeshFileOptions options{.up = upOf(up), .normals = normalsOf(normals)};
+    runUnlocked({}, [&](const Progress& progress) { writeMesh(path, m, options, progress); });
+  });
   mesh.def("_render", [](const TriangleMesh& m, int width, int height, const std::string& from,
                          int samples, const py::object& progress) {
     return renderMesh(m, width, height, from, samples, {progress});
@@ -287,19 +300,14 @@ void addField(py::module_& module) {
   field.def_readonly("truncation", &DistanceField::truncation);
   field.def(
       "write",
-      [](const DistanceField& f, const std::filesystem::path& path) {
+      [](const DistanceField& f, const std::filesystem::path& path, const py::object& wraps) {
         requireOutput(path, ".vdb");
-        runUnlocked({}, [&](const Progress& progress) { writeVdb(path, f, {}, {}, progress); });
+        const Axes axes = axesOf(wraps, "wraps");
+        runUnlocked(
+            {}, [&](const Progress& progress) { writeVdb(path, f, {.wraps = axes}, progress); });
       },
-      py::arg("path"));
-  field.def(
-      "to_mesh",
-      [](const DistanceField& f, bool close) {
-        return unlocked({}, [&](const Progress& progress) {
-          return std::make_shared<TriangleMesh>(fieldToMesh(f, {.close = close}, progress));
-        });
-      },
-      py::kw_only(), py::arg("close") = true, "Its zero as a closed, manifold mesh.");
+      py::arg("path"), py::kw_only(), py::arg("wraps") = py::none(),
+      "Writes a .vdb. wraps: axes (\"x,y\") along which copies of it tile, kept in the file.");
   field.def(
       "redistanced",
       [](const DistanceField& f) {
@@ -323,25 +331,26 @@ void addField(py::module_& module) {
       py::arg("path"), "The level set of a .vdb file.");
   module.def(
       "mesh_to_field",
-      [](const TriangleMesh& mesh, int resolution, double voxelSize, int padding,
-         double halfWidth) {
+      [](const TriangleMesh& mesh, int resolution, double voxelSize, int padding, double halfWidth,
+         const std::string& sign) {
         if (resolution < 1 || resolution > 4096 || !(voxelSize >= 0) || padding < 0 ||
             padding > 1024 || !(halfWidth > 0))
           throw InputError(
               "mesh_to_field: resolution 1 to 4096, voxel_size from 0 on, padding 0 to "
               "1024 and half_width above 0 are wanted");
+        const MeshToSdfOptions options{.voxelSize = voxelSize,
+                                       .resolution = resolution,
+                                       .padding = padding,
+                                       .halfWidth = halfWidth,
+                                       .sign = signOf(sign)};
         return unlocked({}, [&](const Progress& progress) {
-          return std::make_shared<DistanceField>(meshToSdf(mesh,
-                                                           {.voxelSize = voxelSize,
-                                                            .resolution = resolution,
-                                                            .padding = padding,
-                                                            .halfWidth = halfWidth},
-                                                           progress));
+          return std::make_shared<DistanceField>(meshToSdf(mesh, options, progress));
         });
       },
       py::arg("mesh"), py::kw_only(), py::arg("resolution") = 64, py::arg("voxel_size") = 0.0,
-      py::arg("padding") = 4, py::arg("half_width") = 3.0,
-      "Signed distances of any mesh: closed, open, crossing itself or a soup.");
+      py::arg("padding") = 4, py::arg("half_width") = 3.0, py::arg("sign") = "auto",
+      "Signed distances of any mesh: closed, open, crossing itself or a soup. sign: auto, winding, "
+      "parity or flood, how inside and outside are distinguished.");
 }
 
 void addLabels(py::module_& module) {

@@ -87,6 +87,42 @@ Vec3d vectorOf(const std::vector<double>& values, const std::string& name) {
   return {values[0], values[1], values[2]};
 }
 
+Vec3i sidesOf(const py::object& given, const std::string& name) {
+  if (py::isinstance<py::int_>(given)) {
+    const int side = given.cast<int>();
+    return {side, side, side};
+  }
+  const auto sides = given.cast<std::vector<int>>();
+  if (sides.size() != 3) throw InputError(name + ": one or three whole numbers are wanted");
+  return {sides[0], sides[1], sides[2]};
+}
+
+Axes axesOf(const py::object& given, const std::string& name) {
+  if (given.is_none()) return {};
+  if (py::isinstance<py::str>(given)) {
+    const auto text = given.cast<std::string>();
+    return parseAxes(text, "`" + name + "` " + text);
+  }
+  const auto on = given.cast<std::vector<bool>>();
+  if (on.size() != 3) throw InputError(name + ": \"x,y\", or three truth values, are wanted");
+  return {on[0], on[1], on[2]};
+}
+
+Origins originsOf(const py::object& given) {
+  if (given.is_none()) return {};
+  const auto array = given.cast<py::array_t<std::int16_t, py::array::forcecast>>();
+  if (array.ndim() != 4 || array.shape(3) != 3)
+    throw InputError("origins: an array of nx x ny x nz x 3 is wanted");
+  const auto values = array.unchecked<4>();
+  Origins origins({static_cast<int>(array.shape(0)), static_cast<int>(array.shape(1)),
+                   static_cast<int>(array.shape(2))});
+  for (int k = 0; k < origins.size().z; ++k)
+    for (int j = 0; j < origins.size().y; ++j)
+      for (int i = 0; i < origins.size().x; ++i)
+        origins(i, j, k) = Origin({values(i, j, k, 0), values(i, j, k, 1), values(i, j, k, 2)});
+  return origins;
+}
+
 Settings settingsOf(const Given& given) {
   Settings settings;
   for (const auto& [key, text] : given) settings.add(key, text);
@@ -119,5 +155,9 @@ PYBIND11_MODULE(_core, module) {
     }
   });
   addGeometry(module);
+  addParts(module);
+  addLabelParts(module);
+  addSearch(module);
   addEngine(module);
+  addWorld(module);
 }

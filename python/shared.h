@@ -6,19 +6,24 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/array3d.h"
+#include "core/axes.h"
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/progress.h"
 #include "core/vec.h"
 #include "engine/example.h"
 #include "engine/result.h"
 #include "engine/setting.h"
+#include "engine/source.h"
 
 /// What the parts of the Python module share: work without the interpreter's lock, and arrays that
 /// are views of C++ memory.
@@ -28,6 +33,15 @@ namespace py = pybind11;
 
 /// An example or a result as Python holds it: shared, never changed.
 using SharedExample = std::shared_ptr<const Example>;
+
+/// A result with its examples.
+struct Made {
+  Result result;
+  std::vector<Example> examples;
+  ReadOptions reading;
+
+  std::span<const Example> all() const { return examples; }
+};
 
 /// What hears of the progress, a Python callable or None: `progress(stage, fraction)`. False stops
 /// the work.
@@ -43,10 +57,10 @@ void runUnlocked(const Waiting& waiting, const std::function<void(const Progress
 
 template <class Make>
 auto unlocked(const Waiting& waiting, const Make& make) {
-  using Made = decltype(make(Progress{}));
-  std::unique_ptr<Made> made;
+  using Product = decltype(make(Progress{}));
+  std::unique_ptr<Product> made;
   runUnlocked(waiting,
-              [&](const Progress& progress) { made = std::make_unique<Made>(make(progress)); });
+              [&](const Progress& progress) { made = std::make_unique<Product>(make(progress)); });
   return std::move(*made);
 }
 
@@ -86,6 +100,16 @@ Array3D<T> gridOf(const py::array_t<T, py::array::forcecast>& array, const std::
 }
 
 Vec3d vectorOf(const std::vector<double>& values, const std::string& name);
+/// Three whole numbers, or one for all three.
+Vec3i sidesOf(const py::object& given, const std::string& name);
+/// "x,y", or a sequence of three truth values.
+Axes axesOf(const py::object& given, const std::string& name);
+/// Origins as `Result.origins` has them, of the first example and not turned; empty for None.
+Origins originsOf(const py::object& given);
+/// A path, or what is in memory.
+Source sourceOf(const py::object& given);
+/// The dicts and lists of JSON.
+py::object loaded(const std::string& json);
 inline py::tuple tupleOf(const Vec3d& v) { return py::make_tuple(v.x, v.y, v.z); }
 inline py::tuple tupleOf(const Vec3i& v) { return py::make_tuple(v.x, v.y, v.z); }
 
@@ -97,6 +121,10 @@ Settings settingsOf(const Given& given);
 std::string spelledAsKeywords(const std::string& message);
 
 void addGeometry(py::module_& module);  ///< Mesh, Field, LabelGrid, Heights
-void addEngine(py::module_& module);    ///< Example, Result, synthesize, settings
+void addParts(py::module_& module);     ///< what is done to fields and meshes: rooms by themselves
+void addLabelParts(py::module_& module);  ///< the same of labels: pieces, adjacency, violations
+void addSearch(py::module_& module);      ///< BlockIndex, nearest-neighbor fields
+void addEngine(py::module_& module);      ///< Example, Result, synthesize, settings
+void addWorld(py::module_& module);       ///< World
 
 }  // namespace exemplar::python

@@ -37,6 +37,7 @@ mv "$build/$name"/root/usr/* "$build/$name/" && rm -r "$build/$name/root"
 ldd "$build/$name/bin/exemplar" | awk '/=> \//{print $3}' |
   grep -vE '/(libc|libm|libdl|librt|libpthread|libgcc_s|libstdc\+\+|ld-linux[^/]*)\.so' |
   xargs -I{} cp -L {} "$build/$name/lib/"
+cp -r $build/package/third_party "$build/$name/share/doc/exemplar/"
 strip "$build/$name/bin/exemplar"
 patchelf --set-rpath '$ORIGIN/../lib' "$build/$name/bin/exemplar"
 for library in "$build/$name"/lib/*.so*; do patchelf --set-rpath '$ORIGIN' "$library"; done
@@ -58,8 +59,10 @@ mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
 trial=opt/trial  # what is made there, in that root
 mkdir "$root/$trial"
 echo "== the portable archive there"
-tar -C "$root/opt" -xJf "$build/$name.tar.xz"
-inside "/opt/$name/bin/exemplar" synth balls -o "/$trial/portable.glb" --quiet
+odd="opt/a folder äöü"
+mkdir "$root/$odd"
+tar -C "$root/$odd" -xJf "$build/$name.tar.xz"
+inside env LD_LIBRARY_PATH= "/$odd/$name/bin/exemplar" synth balls -o "/$trial/portable.glb" --quiet
 test -s "$root/$trial/portable.glb"
 echo "== the packages there"
 cp $build/*.deb "$root/$trial/"
@@ -68,7 +71,7 @@ inside exemplar synth balls -o "/$trial/packaged.glb" --quiet
 cmp "$root/$trial/portable.glb" "$root/$trial/packaged.glb"
 inside python3 -c 'import exemplar; print("python3-exemplar", exemplar.__version__)'
 test -s "$root/usr/share/man/man1/exemplar-synth.1.gz"
-test "$(inside exemplar --version)" = "$version"
+test "$(inside exemplar --version | head -1)" = "exemplar $version"
 inside sh -c 'DEBIAN_FRONTEND=noninteractive apt-get purge -y -qq exemplar libexemplar-dev python3-exemplar' >>$build/apt.log 2>&1
 left=$(inside find / -xdev -ipath '*exemplar*' -not -path '/proc/*' -not -path '/opt/*')
 test -z "$left" || { echo "left behind: $left" >&2; exit 1; }

@@ -1,15 +1,36 @@
 #!/usr/bin/env python3
 """Lists what a program of exemplar is made with: third_party.py PROGRAM FOLDER
 
-Writes THIRD_PARTY.md (packages, versions, licenses and where their texts are) and exemplar.spdx
-(the same, SPDX 2.3) to FOLDER, from Debian's packages: the libraries that PROGRAM is linked with
-as the loader finds them, and what is compiled into it."""
+Writes THIRD_PARTY.md (packages, versions, licenses and where their texts are), third_party/ (those
+texts) and exemplar.spdx (the list, SPDX 2.3) to FOLDER, from Debian's packages: the libraries that
+PROGRAM is linked with as the loader finds them, and what is compiled into it."""
 
 import hashlib
+import json
 import os
 import re
+import shutil
 import subprocess
 import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+# What the authors of these say of the library itself; a package's copyright file, which is listed,
+# too, also names the licenses of its build scripts and tests. The longest beginning counts.
+DECLARED = {
+    "libopenvdb": "MPL-2.0", "libtbb": "Apache-2.0", "libembree": "Apache-2.0",
+    "libopenmesh": "BSD-3-Clause", "libpng": "libpng-2.0", "libtiff": "libtiff",
+    "libjpeg62-turbo": "IJG AND BSD-3-Clause AND Zlib", "zlib1g": "Zlib",
+    "libboost": "BSL-1.0", "libimath": "BSD-3-Clause", "libopenexr": "BSD-3-Clause",
+    "libcadical": "MIT", "libcli11": "BSD-3-Clause", "libeigen3": "MPL-2.0",
+    "libhwy": "Apache-2.0 OR BSD-3-Clause", "libmeshoptimizer": "MIT", "libtinygltf": "MIT",
+    "libtomlplusplus": "MIT", "libxxhash": "BSD-2-Clause", "nlohmann-json3": "MIT",
+    "libstdc++6": "GPL-3.0-or-later WITH GCC-exception-3.1",
+    "libgcc-s1": "GPL-3.0-or-later WITH GCC-exception-3.1", "libc6": "LGPL-2.1-or-later",
+    "libblosc": "BSD-3-Clause", "liblz4": "BSD-2-Clause", "libzstd": "BSD-3-Clause",
+    "libsnappy": "BSD-3-Clause", "liblzma5": "0BSD", "libdeflate": "MIT", "libjbig": "GPL-2.0-or-later",
+    "liblerc": "Apache-2.0", "libwebp": "BSD-3-Clause", "three": "MIT",
+}
 
 # Compiled in: static libraries and headers. three.js, in the report's page, comes from npm.
 COMPILED_IN = [
@@ -49,22 +70,42 @@ def licenses_of(package):
     return names or ["see the file"], path
 
 
+def declared_for(package):
+    known = [name for name in DECLARED if package.startswith(name)]
+    return DECLARED[max(known, key=len)] if known else "NOASSERTION"
+
+
+def three_js():
+    """What the report's page holds, from npm."""
+    with open(os.path.join(ROOT, "web", "package.json"), encoding="utf-8") as file:
+        packages = json.load(file)
+    version = {**packages.get("devDependencies", {}), **packages.get("dependencies", {})}["three"]
+    return ("three", version.lstrip("^~"), ["MIT"], "")
+
+
 def main():
     program, folder = sys.argv[1:]
-    rows = []
+    rows = [three_js()]
     for package in sorted(linked_packages(program) | set(COMPILED_IN)):
         version = output("dpkg-query", "-W", "-f", "${Version}", package)
         if version:
             rows.append((package, version, *licenses_of(package)))
-    if len(rows) < len(COMPILED_IN):
+    if len(rows) <= len(COMPILED_IN):
         sys.exit("third_party.py: the packages that exemplar is made with are not Debian's here")
-    os.makedirs(folder, exist_ok=True)
+    texts = os.path.join(folder, "third_party")
+    shutil.rmtree(texts, ignore_errors=True)
+    os.makedirs(texts)
+    for package, _, _, path in rows:
+        if path:
+            shutil.copyfile(path, os.path.join(texts, package))
     with open(os.path.join(folder, "THIRD_PARTY.md"), "w", encoding="utf-8") as file:
         file.write("# What exemplar is made with\n\n"
-                   "Debian's packages, linked or compiled in. The report's page holds three.js (MIT).\n\n"
-                   "| package | version | licenses in it | text |\n| --- | --- | --- | --- |\n")
+                   "Debian's packages, linked or compiled in, and three.js, which the report's page "
+                   "holds.\n\n| package | version | license | named in its copyright file | text |\n"
+                   "| --- | --- | --- | --- | --- |\n")
         for package, version, licenses, path in rows:
-            file.write(f"| {package} | {version} | {', '.join(licenses)} | {path} |\n")
+            file.write(f"| {package} | {version} | {declared_for(package)} | "
+                       f"{', '.join(licenses)} | {path} |\n")
     identity = hashlib.sha256(repr(rows).encode()).hexdigest()
     with open(os.path.join(folder, "exemplar.spdx"), "w", encoding="utf-8") as file:
         file.write("SPDXVersion: SPDX-2.3\nDataLicense: CC0-1.0\nSPDXID: SPDXRef-DOCUMENT\n"
@@ -81,7 +122,7 @@ def main():
             file.write(f"\nPackageName: {package}\nSPDXID: {reference}\n"
                        f"PackageVersion: {version}\nPackageDownloadLocation: NOASSERTION\n"
                        "FilesAnalyzed: false\nPackageLicenseConcluded: NOASSERTION\n"
-                       "PackageLicenseDeclared: NOASSERTION\n"
+                       f"PackageLicenseDeclared: {declared_for(package)}\n"
                        f"PackageLicenseComments: <text>{', '.join(licenses)}</text>\n"
                        "PackageCopyrightText: NOASSERTION\n"
                        f"Relationship: SPDXRef-exemplar DEPENDS_ON {reference}\n")

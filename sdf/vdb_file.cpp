@@ -35,6 +35,7 @@ constexpr const char* kTruncation = "exemplar_truncation";
 constexpr const char* kWraps = "exemplar_wraps";
 constexpr const char* kUnit = "exemplar_unit";
 constexpr const char* kScale = "exemplar_scale";  // of origins
+constexpr const char* kYUp = "exemplar_y_up";     // there where it is so
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   throw InputError(path.string() + ": " + what);
@@ -90,18 +91,25 @@ struct Placement {
   double voxelSize;
   Vec3d origin;  // of the box's first sample
   Turn turn;     // from there to where it is in the file
+  bool lies;     // its samples have y up, too: index j is height, and k runs along -y
 };
 
-// Grids that are turned about the vertical are refused unless `turns`.
-Placement placement(const openvdb::GridBase& grid, const CoordBBox& box, bool turns,
+// Grids that are turned about the vertical are refused unless `turns`. `yUp`: in the file.
+Placement placement(const openvdb::GridBase& grid, const CoordBBox& box, bool turns, bool yUp,
                     const fs::path& path) {
   const auto& transform = grid.transform();
+  const auto stood = [&](const openvdb::Vec3d& v) {
+    return yUp ? openvdb::Vec3d(v[0], 0 - v[2], v[1]) : v;
+  };
   // Differences of positions far from the origin would be less exact.
   const auto step = [&](int x, int y, int z) {
-    return transform.isLinear() ? transform.baseMap()->applyJacobian(openvdb::Vec3d(x, y, z))
+    return transform.isLinear() ? stood(transform.baseMap()->applyJacobian(openvdb::Vec3d(x, y, z)))
                                 : openvdb::Vec3d(0);
   };
-  const openvdb::Vec3d dx = step(1, 0, 0), dy = step(0, 1, 0), dz = step(0, 0, 1);
+  const openvdb::Vec3d dx = step(1, 0, 0);
+  const bool lies = yUp && step(0, 1, 0)[2] > std::abs(step(0, 1, 0)[1]);
+  const openvdb::Vec3d dy = lies ? -step(0, 0, 1) : step(0, 1, 0);
+  const openvdb::Vec3d dz = lies ? step(0, 1, 0) : step(0, 0, 1);
   const double h = std::hypot(dx[0], dx[1]), tolerance = 1e-5 * std::abs(h);
   const bool turned = turns && !(std::abs(dx[1]) <= tolerance && dx[0] > 0);
   const double c = turned ? dx[0] : h, s = turned ? dx[1] : 0;
@@ -109,14 +117,26 @@ Placement placement(const openvdb::GridBase& grid, const CoordBBox& box, bool tu
                      (dx - openvdb::Vec3d(c, s, 0)).length() <= tolerance &&
                      (dy - openvdb::Vec3d(-s, c, 0)).length() <= tolerance &&
                      (dz - openvdb::Vec3d(0, 0, h)).length() <= tolerance;
-  const openvdb::Vec3d first = transform.indexToWorld(box.min());
+  Coord corner = box.min();
+  if (lies) corner.z() = box.max().z();
+  const openvdb::Vec3d first = stood(transform.indexToWorld(corner));
   if (!cubes || !std::isfinite(first.length()))
     fail(path, "the voxels of the grid \"" + grid.getName() + "\" are no " +
                    (turns ? "upright" : "axis-aligned") +
-                   " cubes; resample it to a uniform voxel size");
+                   " cubes; resample it to a uniform voxel size" +
+                   (yUp ? "" : ", or, where its y axis is up, say so (`up` y)"));
   const double unit = unitOf(grid);
   const Vec3d origin = Vec3d{first[0], first[1], first[2]} / unit;
-  return {(turned ? h : dx[0]) / unit, origin, turned ? Turn(std::atan2(s, c), origin) : Turn()};
+  return {(turned ? h : dx[0]) / unit, origin, turned ? Turn(std::atan2(s, c), origin) : Turn(),
+          lies};
+}
+
+// Samples whose y axis is up with their z axis up.
+Array3D<float> stoodUp(const Array3D<float>& lying) {
+  const Vec3i n = lying.size();
+  Array3D<float> values({n.x, n.z, n.y});
+  forEachCell(values.size(), [&](const Vec3i& p) { values[p] = lying(p.x, p.z, n.z - 1 - p.y); });
+  return values;
 }
 
 Vec3i sizeOf(const CoordBBox& box) {
@@ -145,19 +165,21 @@ Array3D<T> readDense(const Grid& grid, const CoordBBox& box, const Progress& pro
 
 // The values as signed distances: as they are, or, for a fog volume, measured from its 0.5.
 template <class Grid>
-DistanceField fieldFrom(const Grid& grid, const fs::path& path, Turn* turn,
+DistanceField fieldFrom(const Grid& grid, const fs::path& path, const ReadVdbOptions& options,
                         const Progress& progress) {
   const auto gridClass = grid.getGridClass();
   CoordBBox box = sampleBox(grid, path);
   // A density's active voxels may end right at its surface.
   if (gridClass != openvdb::GRID_LEVEL_SET) box.expand(1);
-  const Placement place = placement(grid, box, turn != nullptr, path);
-  if (turn) *turn = place.turn;
+  const bool yUp = options.yUp || grid[kYUp];
+  const Placement place = placement(grid, box, options.turn != nullptr, yUp, path);
+  if (options.turn) *options.turn = place.turn;
   DistanceField field;
   field.voxelSize = place.voxelSize;
   field.origin = place.origin;
   field.values = readDense<float>(grid, box, progress.part(0, 0.5),
                                   [](auto v) { return static_cast<float>(v); });
+  if (place.lies) field.values = stoodUp(field.values);
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (const float v : field.values.values()) {
     if (!std::isfinite(v))
@@ -189,17 +211,20 @@ DistanceField fieldFrom(const Grid& grid, const fs::path& path, Turn* turn,
 }
 
 template <class Grid>
-void place(Grid& grid, const DistanceField& field, const Turn& turn) {
+void place(Grid& grid, const DistanceField& field, const Turn& turn, bool yUp) {
   const Vec3i size = field.size();
   const double unit = unitFor(field.voxelSize), voxel = field.voxelSize * unit;
-  const Vec3d origin = turn(field.origin) * unit;
+  const auto inFile = [&](const Vec3d& v) { return yUp ? Vec3d{v.x, v.z, 0 - v.y} : v; };
+  const Vec3d origin = inFile(turn(field.origin) * unit);
   auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-  if (!turn.none()) {
-    const Vec3d x = turn.direction({voxel, 0, 0}), y = turn.direction({0, voxel, 0});
+  if (!turn.none() || yUp) {
+    const Vec3d x = inFile(turn.direction({voxel, 0, 0})),
+                y = inFile(turn.direction({0, voxel, 0})), z = inFile({0, 0, voxel});
     transform = openvdb::math::Transform::createLinearTransform(
-        openvdb::Mat4R(x.x, x.y, 0., 0., y.x, y.y, 0., 0., 0., 0., voxel, 0., 0., 0., 0., 1.));
+        openvdb::Mat4R(x.x, x.y, x.z, 0., y.x, y.y, y.z, 0., z.x, z.y, z.z, 0., 0., 0., 0., 1.));
   }
   transform->postTranslate({origin.x, origin.y, origin.z});
+  if (yUp) grid.insertMeta(kYUp, openvdb::BoolMetadata(true));
   if (unit != 1) grid.insertMeta(kUnit, openvdb::DoubleMetadata(unit));
   grid.setTransform(transform);
   stateBox(grid, size);
@@ -254,7 +279,7 @@ openvdb::GridBase::Ptr chooseGrid(const fs::path& path, const openvdb::GridPtrVe
 
 }  // namespace
 
-void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wraps, const Turn& turn,
+void writeVdb(const fs::path& path, const DistanceField& field, const WriteVdbOptions& options,
               const Progress& progress) {
   requireSamples(path, field.values.count());
   progress.report("packing the volume", 0);
@@ -270,9 +295,9 @@ void writeVdb(const fs::path& path, const DistanceField& field, const Axes& wrap
   const auto grid = openvdb::FloatGrid::create(background);
   grid->setName("surface");
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  place(*grid, field, turn);
+  place(*grid, field, options.turn, options.yUp);
   grid->insertMeta(kTruncation, openvdb::FloatMetadata(field.truncation));
-  if (wraps.any()) {
+  if (const Axes& wraps = options.wraps; wraps.any()) {
     grid->insertMeta(kWraps, openvdb::Vec3IMetadata({wraps.x, wraps.y, wraps.z}));
   }
   const Vec3i size = field.size();
@@ -304,7 +329,7 @@ DistanceField readVdb(const fs::path& path, const ReadVdbOptions& options, Axes*
     const openvdb::GridBase::Ptr chosen = chooseGrid(path, grids, options);
     const auto read = [&](const auto& grid) {
       if (wraps) *wraps = wrapsOf(grid);
-      return fieldFrom(grid, path, options.turn, progress.part(0.3, 1));
+      return fieldFrom(grid, path, options, progress.part(0.3, 1));
     };
     if (const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(chosen)) return read(*grid);
     return read(*openvdb::gridPtrCast<openvdb::DoubleGrid>(chosen));
@@ -322,8 +347,8 @@ void writeOriginsVdb(const fs::path& path, const Origins& origins, const Distanc
   const auto sources = openvdb::Int32Grid::create(-1);
   cells->setName("origin");
   sources->setName("source");
-  place(*cells, field, options.turn);
-  place(*sources, field, options.turn);
+  place(*cells, field, options.turn, false);
+  place(*sources, field, options.turn, false);
   if (options.scale) {
     const Vec3d& scale = *options.scale;
     cells->insertMeta(kScale, openvdb::Vec3DMetadata({scale.x, scale.y, scale.z}));

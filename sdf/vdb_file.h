@@ -18,14 +18,19 @@ namespace exemplar {
 
 /// Writes a field as one float grid "surface" of class level set (`.vdb`), world transform
 /// included, as Blender, Houdini and `vdb_print` read it. Samples outside ±truncation become
-/// background tiles. Whole or not at all. `wraps`: the axes along which the field is periodic, its
-/// last sample beside its first; the file records them. OpenVDB has no voxels below 0.00001:
+/// background tiles. Whole or not at all. OpenVDB has no voxels below 0.00001:
 /// smaller ones are written 1,000 (or 1,000,000, ...) times as large, millimeters for meters, which
 /// the file records and `readVdb` takes back. Throws `InputError` naming the file, and `Cancelled`.
-///
-/// `turn` takes the field to where it is in the file, whose transform says so.
-void writeVdb(const std::filesystem::path& path, const DistanceField& field, const Axes& wraps = {},
-              const Turn& turn = {}, const Progress& progress = {});
+struct WriteVdbOptions {
+  /// The axes along which the field is periodic, its last sample beside its first; the file records
+  /// them.
+  Axes wraps;
+  Turn turn;  ///< takes the field to where it is in the file, whose transform says so
+  /// The file's y axis is up, as in Houdini; the file records it, and only its transform differs.
+  bool yUp = false;
+};
+void writeVdb(const std::filesystem::path& path, const DistanceField& field,
+              const WriteVdbOptions& options = {}, const Progress& progress = {});
 
 struct ReadVdbOptions {
   std::string grid;              ///< the name of the grid to read; empty: see `readVdb`
@@ -33,6 +38,9 @@ struct ReadVdbOptions {
   /// Receives how the grid lies turned about the vertical against the field; where it is null, such
   /// grids are refused.
   Turn* turn = nullptr;
+  /// The file's y axis is up: it is stood up, its z axis becoming -y. Those that record it
+  /// (`writeVdb`) need no saying.
+  bool yUp = false;
 };
 
 /// Reads a grid of floats or doubles of a `.vdb` (a level set, or a fog volume whose 0.5 becomes

@@ -38,7 +38,8 @@ def _runs(path):
 
 def version(path):
     """The command's version, as "0.1.0"; an empty text where it does not answer within 5 s."""
-    return _said(path, "--version").strip()
+    words = _said(path, "--version").split()
+    return words[1] if words[:1] == ["exemplar"] and len(words) > 1 else ""
 
 
 def engines(path):

@@ -14,6 +14,7 @@ from mathutils import Matrix
 from . import exchange, glb, run, settings
 
 MERGED = 0.1  # voxels
+DRAFT = 32  # samples
 
 
 def _path_of(identity):
@@ -27,55 +28,66 @@ class Synthesis(run.Run):
     def begin(self, context, values, names, active, detail=1, identity=""):
         """The command's words for settings; the example is what `names` are, in `active`'s frame."""
         self.values, self.names, self.anchor, self.detail = values, names, active, detail
+        self.before = _path_of(identity) if identity else ""
+        self.identity = uuid.uuid4().hex
         thing = bpy.data.objects.get(active)
         if thing is None:
             raise run.Failure(f"'{active}' is gone, from which this was made")
+        if values.get("on") and detail > 1:
+            raise run.Failure("what lies on a surface is not refined: choose more Detail")
         frame = exchange.frame_of(thing)
         self.frame = [list(row) for row in frame]
         self.exported = self._write(context, names, frame, "in.glb", values["thickness"])
         self.exported.triangles = None  # not needed again
-        others = []
-        for key in ("keep", "guide"):
+        # Results of older versions know nothing of surfaces.
+        for key in ("on",) if values.get("on") else ("keep", "guide"):
             if values[key]:
                 self._write(context, [values[key]], frame, key + ".glb")
-                others += ["--" + key, key + ".glb"]
-        mixed = []
         if values["mix"]:
             collection = bpy.data.collections.get(values["mix"])
             found = [t.name for t in collection.all_objects] if collection else []
             if not found:
                 raise run.Failure(f"the collection '{values['mix']}' has no objects to mix with")
             self._write(context, found, frame, "mix.glb")
-            mixed = ["--with", "mix.glb"]
-        self.identity = uuid.uuid4().hex
-        surface = ["-o", "out.glb"] + mixed
-        if self.exported.layers and not mixed:
-            surface.append("--source")
+        return self.words(values["resolution"])
+
+    def words(self, resolution, draft=False):
+        """The command's, for what `begin` has written."""
+        values = self.values
+        out = ["-o", "out.glb", "--resolution", resolution]
+        if values["mix"]:
+            out += ["--with", "mix.glb"]
+        elif self.exported.layers:
+            out.append("--source")
         if values["triangles"] == "MERGED":
-            surface += ["--simplify", MERGED]
+            out += ["--simplify", MERGED]
         elif values["triangles"] == "NUMBER":
-            surface += ["--triangles", values["number"]]
-        reading = ["--resolution", values["resolution"]]
-        reading += ["--scatter"] if values["scatter"] else []
-        kept = _path_of(identity) if identity else ""
-        if detail > 1:
-            surface += ["--detail", detail]
-            if os.path.isfile(os.path.join(kept, "origins.vdb")):
-                return ["mesh", os.path.join(kept, "field.vdb"), "--origins",
-                        os.path.join(kept, "origins.vdb"), "--example", "in.glb"] + surface + reading
-        words = ["synth", "in.glb"] + surface + reading + others
-        words += ["--scale", ",".join(f"{side:.6g}" for side in values["scale"]),
-                  "--seed", values["seed"], "--engine", values["engine"]]
-        if detail == 1:
-            words += ["-o", "field.vdb", "--origins", "origins.vdb"]
+            out += ["--triangles", values["number"]]
+        if values.get("on"):
+            out += ["--on", "on.glb", "--base", values["base"], "--height", f"{values['height']:.6g}"]
+            out += ["--span", f"{values['span']:.6g}"] if values["span"] else []
+            return ["synth", "in.glb", "--engine", "surface", "--seed", values["seed"]] + out
+        out += ["--scatter"] if values["scatter"] else []
+        if self.detail > 1:
+            out += ["--detail", self.detail]
+            if os.path.isfile(os.path.join(self.before, "origins.vdb")):
+                return ["mesh", os.path.join(self.before, "field.vdb"), "--origins",
+                        os.path.join(self.before, "origins.vdb"), "--example", "in.glb"] + out
+        for key in ("keep", "guide"):
+            if values[key]:
+                out += ["--" + key, key + ".glb"]
+        out += ["--scale", ",".join(f"{side:.6g}" for side in values["scale"]),
+                "--seed", values["seed"], "--engine", values["engine"]]
+        if self.detail == 1 and not draft:
+            out += ["-o", "field.vdb", "--origins", "origins.vdb"]
         if values["repeats"] != "auto":
-            words += ["--stationary", values["repeats"]]
+            out += ["--stationary", values["repeats"]]
         tiles = ",".join(axis for axis, on in zip("xyz", values["tile"]) if on)
         if tiles:
-            words += ["--periodic", tiles]
+            out += ["--periodic", tiles]
         if values["rotations"]:
-            words.append("--rotations")
-        return words
+            out.append("--rotations")
+        return ["synth", "in.glb"] + out
 
     def _write(self, context, names, frame, name, thickness=0.0):
         exported = exchange.gather(context, names, frame, thickness)
@@ -103,6 +115,7 @@ class EXEMPLAR_OT_extend(Synthesis, bpy.types.Operator):
     """Make more of the selected objects: larger, different everywhere, with their materials"""
     bl_idname = "exemplar.extend"
     bl_label = "More of It"
+    drafted = ("", "")  # names of the object and the mesh that show the draft
 
     @classmethod
     def poll(cls, context):
@@ -117,26 +130,53 @@ class EXEMPLAR_OT_extend(Synthesis, bpy.types.Operator):
         group = context.scene.exemplar.extend
         values = settings.frozen(group)
         values["resolution"] = group.resolution()
-        apart = {values["keep"], values["guide"]}
+        apart = {values["keep"], values["guide"], values["on"]}
         names = [t.name for t in context.selected_objects
                  if t.type in exchange.KINDS and t.name not in apart]
         if not names:
-            raise run.Failure("select the objects to make more of; Keep and Guide are none of them")
+            raise run.Failure("select the objects to make more of; Keep, Guide and On Object are none "
+                              "of them")
         active = context.active_object
-        return self.begin(context, values, names,
-                          active.name if active and active.name in names else names[0])
+        words = self.begin(context, values, names,
+                           active.name if active and active.name in names else names[0])
+        if not (values["draft"] and self.shows_drafts and values["resolution"] != "auto" and
+                values["resolution"] > DRAFT):
+            return words
+        self.following = words
+        return self.words(DRAFT, draft=True)
 
-    def take(self, context):
+    def place(self, context, mesh):
+        """An object of a mesh where the example is, in its collection."""
         anchor = bpy.data.objects.get(self.anchor)
-        mesh, groups = self.result_mesh(self.anchor + " more")
         thing = bpy.data.objects.new(mesh.name, mesh)
         thing.matrix_world = Matrix(self.frame)
-        collection = context.collection
-        if anchor is None:
+        owners = anchor.users_collection if anchor else ()
+        (owners[0] if owners else context.collection).objects.link(thing)
+        return thing
+
+    def take_draft(self, context):
+        mesh, _ = exchange.build(self.anchor + " draft", glb.read(self.file("out.glb")),
+                                 self.exported)
+        thing = self.place(context, mesh)
+        thing.display_type, thing.show_in_front = "WIRE", True
+        self.drafted = (thing.name, mesh.name)
+        os.remove(self.file("out.glb"))
+
+    def drop_draft(self):
+        thing, mesh = self.drafted
+        self.drafted = ("", "")
+        if bpy.data.objects.get(thing):
+            bpy.data.objects.remove(bpy.data.objects[thing])
+        mesh = bpy.data.meshes.get(mesh)
+        if mesh and mesh.users == 0:
+            bpy.data.meshes.remove(mesh)
+
+    def take(self, context):
+        mesh, groups = self.result_mesh(self.anchor + " more")
+        self.drop_draft()
+        if bpy.data.objects.get(self.anchor) is None:
             self.report({"INFO"}, f"'{self.anchor}' is gone; the result is where it was")
-        elif anchor.users_collection:
-            collection = anchor.users_collection[0]
-        collection.objects.link(thing)
+        thing = self.place(context, mesh)
         exchange.set_groups(thing, groups)
         self.record(thing)
         run.hide(context, self.names)
@@ -221,7 +261,8 @@ class EXEMPLAR_OT_restore(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return run.result_of(context)[1] is not None
+        record = run.result_of(context)[1]
+        return record is not None and bool(record["sources"])
 
     def execute(self, context):
         thing, record = run.result_of(context)

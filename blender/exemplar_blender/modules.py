@@ -1,15 +1,15 @@
 # exemplar for Blender. Copyright (c) 2026 The exemplar authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""More objects on a grid, as linked duplicates; and more of a landscape."""
+"""More objects on a grid, as linked duplicates or as points that Geometry Nodes put them on."""
 
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from . import exchange, grid, run, settings
+from . import grid, run, settings
 
-MOST = 20000  # objects; more of them make Blender slow
+MOST = 20000  # linked duplicates; more of them make Blender slow
 
 
 def _pieces(collection):
@@ -92,24 +92,21 @@ class Assembly(run.Run):
     def fill(self, context, collection):
         labels = grid.read_labels(self.file("out.txt"))
         cells = np.argwhere(labels > 0)
-        if len(cells) > MOST:
+        form = self.values.get("form", "auto")  # results of older versions have none
+        if form == "objects" and len(cells) > MOST:
             raise run.Failure(f"the result has {len(cells):,} objects; more than {MOST:,} make "
-                              "Blender slow: choose a smaller size")
+                              "Blender slow: choose points, or a smaller size")
         shown = [bpy.data.objects.get(name) for name in self.sample.shown]
         if None in shown:
             gone = self.sample.shown[shown.index(None)]
             raise run.Failure(f"'{gone}' is gone, of which copies were to be placed")
-        turned = [thing.matrix_world.to_3x3().to_4x4() for thing in shown]
-        for thing in list(collection.objects):
-            bpy.data.objects.remove(thing)
-        for cell, label in zip(cells, labels[tuple(cells.T)]):
-            copy = shown[label - 1].copy()
-            copy.parent = None
-            copy.animation_data_clear()
-            copy.hide_viewport = False
-            copy.matrix_world = Matrix.Translation(
-                Vector(self.sample.start + cell * self.sample.cell)) @ turned[label - 1]
-            collection.objects.link(copy)
+        numbers = labels[tuple(cells.T)] - 1
+        clear(collection)
+        places = self.sample.start + cells * self.sample.cell
+        if form == "points" or len(cells) > MOST:
+            put_points(collection, shown, places, numbers)
+        else:
+            put_objects(collection, shown, places, numbers)
         run.remember(collection, "modules", self.values, sources=self.sample.names,
                      warnings=self.job.warnings)
         if not self.values["beside"]:
@@ -117,6 +114,84 @@ class Assembly(run.Run):
         context.view_layer.update()
         if collection.objects:
             run.select(context, [collection.objects[0].name])
+
+
+def clear(collection):
+    """Removes what a collection holds, and what was made for its points alone."""
+    for thing in list(collection.objects):
+        mesh = thing.data
+        bpy.data.objects.remove(thing)
+        if isinstance(mesh, bpy.types.Mesh) and mesh.users == 0:
+            bpy.data.meshes.remove(mesh)
+    for group in [g for g in bpy.data.node_groups if g.users == 0 and g.get("exemplar_points")]:
+        pieces = group.nodes["Pieces"].inputs["Collection"].default_value
+        bpy.data.node_groups.remove(group)
+        if pieces and pieces.users == 0:
+            for thing in list(pieces.objects):
+                bpy.data.objects.remove(thing)
+            bpy.data.collections.remove(pieces)
+
+
+def copy_of(thing, place):
+    """A linked duplicate, turned as it is, somewhere else."""
+    copy = thing.copy()
+    copy.parent = None
+    copy.animation_data_clear()
+    copy.hide_viewport = copy.hide_render = False
+    copy.matrix_world = Matrix.Translation(Vector(place)) @ thing.matrix_world.to_3x3().to_4x4()
+    return copy
+
+
+def put_objects(collection, shown, places, numbers):
+    for place, number in zip(places, numbers):
+        collection.objects.link(copy_of(shown[number], place))
+
+
+def put_points(collection, shown, places, numbers):
+    """One object of points, each with the number of its piece, and Geometry Nodes that put them
+    there: "Instance on Points, Pick Instance"."""
+    mesh = bpy.data.meshes.new(collection.name)
+    mesh.vertices.add(len(places))
+    mesh.vertices.foreach_set("co", places.astype(np.float32).ravel())
+    mesh.attributes.new("piece", "INT", "POINT").data.foreach_set("value", numbers.astype(np.int32))
+    thing = bpy.data.objects.new(collection.name, mesh)
+    collection.objects.link(thing)
+    pieces = bpy.data.collections.new(collection.name + " pieces")
+    for number, piece in enumerate(shown):
+        copy = copy_of(piece, (0, 0, 0))
+        copy.name = f"{number:05d} {piece.name}"  # they are picked in the order of their names
+        pieces.objects.link(copy)
+    thing.modifiers.new("Pieces", "NODES").node_group = _instances_of(pieces)
+
+
+def _instances_of(pieces):
+    group = bpy.data.node_groups.new(pieces.name, "GeometryNodeTree")
+    group["exemplar_points"] = True
+    if hasattr(group, "interface"):  # from 4.0 on; written from the manual, not run
+        for way in ("INPUT", "OUTPUT"):
+            group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    else:
+        group.inputs.new("NodeSocketGeometry", "Geometry")
+        group.outputs.new("NodeSocketGeometry", "Geometry")
+    nodes, links = group.nodes, group.links
+    points, result = nodes.new("NodeGroupInput"), nodes.new("NodeGroupOutput")
+    number = nodes.new("GeometryNodeInputNamedAttribute")
+    number.data_type = "INT"
+    number.inputs["Name"].default_value = "piece"
+    picked = nodes.new("GeometryNodeCollectionInfo")
+    picked.name = "Pieces"
+    picked.inputs["Collection"].default_value = pieces
+    picked.inputs["Separate Children"].default_value = True
+    put = nodes.new("GeometryNodeInstanceOnPoints")
+    put.inputs["Pick Instance"].default_value = True
+    links.new(points.outputs["Geometry"], put.inputs["Points"])
+    links.new(picked.outputs[0], put.inputs["Instance"])
+    links.new(next(o for o in number.outputs if o.enabled and o.type == "INT"),
+              put.inputs["Instance Index"])
+    links.new(put.outputs["Instances"], result.inputs["Geometry"])
+    for node, x in ((points, -400), (number, -400), (picked, -400), (put, 0), (result, 300)):
+        node.location.x = x
+    return group
 
 
 class EXEMPLAR_OT_modules(Assembly, bpy.types.Operator):
@@ -160,66 +235,4 @@ class EXEMPLAR_OT_modules_again(Assembly, bpy.types.Operator):
         self.fill(context, collection)
 
 
-class EXEMPLAR_OT_landscape(run.Run, bpy.types.Operator):
-    """Make more of the active landscape, a grid seen from above"""
-    bl_idname = "exemplar.landscape"
-    bl_label = "More Landscape"
-
-    @classmethod
-    def poll(cls, context):
-        active = context.active_object
-        return super().poll(context) and active is not None and active.type == "MESH"
-
-    def prepare(self, context):
-        active = context.active_object
-        self.values = settings.frozen(context.scene.exemplar.landscape)
-        self.anchor, self.frame = active.name, exchange.frame_of(active)
-        depsgraph = context.evaluated_depsgraph_get()
-        evaluated = active.evaluated_get(depsgraph)
-        mesh = evaluated.to_mesh()
-        points = np.empty(3 * len(mesh.vertices), np.float32)
-        mesh.vertices.foreach_get("co", points)
-        materials = [exchange._material_key(s.material) for s in active.material_slots]
-        self.material = materials[0] if materials else None
-        evaluated.to_mesh_clear()
-        local = np.array(self.frame.inverted() @ active.matrix_world)
-        points = points.reshape(-1, 3) @ local[:3, :3].T + local[:3, 3]
-        heights, side, self.corner = grid.height_grid(points)
-        grid.write_asc(self.file("in.asc"), heights, side)
-        engine = ["--engine", "terrain"]
-        if "terrain" not in settings.command.engines(settings.found_command()[0]):
-            engine = ["--engine", "geometry", "--resolution", max(heights.shape)]
-        return ["synth", "in.asc", "-o", "out.asc", "--seed", self.values["seed"], "--scale",
-                "{:.6g},{:.6g},1".format(*self.values["scale"])] + engine
-
-    def take(self, context):
-        heights, side = grid.read_asc(self.file("out.asc"))
-        rows, columns = heights.shape
-        x, y = np.meshgrid(self.corner[0] + side * np.arange(columns),
-                           self.corner[1] + side * np.arange(rows)[::-1])
-        number = np.arange(rows * columns).reshape(rows, columns)
-        faces = np.stack([number[1:, :-1], number[1:, 1:], number[:-1, 1:], number[:-1, :-1]], -1)
-        mesh = bpy.data.meshes.new(self.anchor + " more")
-        mesh.vertices.add(rows * columns)
-        mesh.vertices.foreach_set("co", np.stack([x, y, heights], -1).astype(np.float32).ravel())
-        count = faces.size // 4
-        mesh.loops.add(4 * count)
-        mesh.loops.foreach_set("vertex_index", faces.astype(np.int32).ravel())
-        mesh.polygons.add(count)
-        mesh.polygons.foreach_set("loop_start", np.arange(0, 4 * count, 4, dtype=np.int32))
-        mesh.polygons.foreach_set("loop_total", np.full(count, 4, np.int32))
-        mesh.polygons.foreach_set("use_smooth", np.ones(count, bool))
-        mesh.materials.append(exchange._material_of(self.material))
-        mesh.update(calc_edges=True)
-        thing = bpy.data.objects.new(mesh.name, mesh)
-        thing.matrix_world = self.frame
-        anchor = bpy.data.objects.get(self.anchor)
-        owners = anchor.users_collection if anchor else ()
-        (owners[0] if owners else context.collection).objects.link(thing)
-        run.remember(thing, "landscape", self.values, sources=[self.anchor],
-                     warnings=self.job.warnings)
-        run.hide(context, [self.anchor])
-        run.select(context, [thing.name])
-
-
-CLASSES = (EXEMPLAR_OT_modules, EXEMPLAR_OT_modules_again, EXEMPLAR_OT_landscape)
+CLASSES = (EXEMPLAR_OT_modules, EXEMPLAR_OT_modules_again)

@@ -113,6 +113,7 @@ class EXEMPLAR_PT_extend(_Tab, bpy.types.Panel):
         layout.prop(group, "triangles")
         if group.triangles == "NUMBER":
             layout.prop(group, "number")
+        layout.prop(group, "draft")
         layout.operator("exemplar.extend", icon="MOD_ARRAY")
 
 
@@ -128,6 +129,20 @@ class EXEMPLAR_PT_control(_Tab, bpy.types.Panel):
             layout.prop(group, key)
 
 
+class EXEMPLAR_PT_surface(_Tab, bpy.types.Panel):
+    bl_label = "On a Surface"
+    bl_parent_id = "EXEMPLAR_PT_extend"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        group, layout = context.scene.exemplar.extend, self.columns()
+        layout.prop(group, "on")
+        rest = layout.column()
+        rest.enabled = group.on is not None
+        for key in ("span", "base", "height"):
+            rest.prop(group, key)
+
+
 class EXEMPLAR_PT_modules(_Tab, bpy.types.Panel):
     bl_label = "Modules"
     bl_options = {"DEFAULT_CLOSED"}
@@ -135,7 +150,7 @@ class EXEMPLAR_PT_modules(_Tab, bpy.types.Panel):
 
     def draw(self, context):
         group, layout = context.scene.exemplar.modules, self.columns()
-        for key in ("sample", "cell", "size", "sides", "pins", "beside", "seed"):
+        for key in ("sample", "cell", "size", "sides", "pins", "beside", "form", "seed"):
             layout.prop(group, key)
         layout.operator("exemplar.modules", icon="MOD_BUILD")
 
@@ -147,6 +162,7 @@ class EXEMPLAR_PT_landscape(_Tab, bpy.types.Panel):
 
     def draw(self, context):
         group, layout = context.scene.exemplar.landscape, self.columns()
+        layout.prop(group, "file")
         layout.prop(group, "scale")
         layout.prop(group, "seed")
         layout.operator("exemplar.landscape", icon="RNDCURVE")
@@ -168,6 +184,7 @@ class EXEMPLAR_PT_result(_Tab, bpy.types.Panel):
             layout.operator("exemplar.again", text="Re-roll", icon="FILE_REFRESH").how = "REROLL"
             layout.operator("exemplar.again", text="With the Panel's Settings").how = "REDO"
             row = layout.row(align=True)
+            row.enabled = not record["settings"].get("on")
             for how, text in (("REFINE2", "Refine x2"), ("REFINE4", "x4")):
                 row.operator("exemplar.again", text=text).how = how
             layout.operator("exemplar.compare", icon="URL")
@@ -198,5 +215,5 @@ def draw_menu(self, _context):
 
 
 CLASSES = (EXEMPLAR_OT_find_command, EXEMPLAR_OT_set_command, EXEMPLAR_OT_copy_log,
-           EXEMPLAR_PT_state, EXEMPLAR_PT_extend, EXEMPLAR_PT_control, EXEMPLAR_PT_modules,
+           EXEMPLAR_PT_state, EXEMPLAR_PT_extend, EXEMPLAR_PT_control, EXEMPLAR_PT_surface, EXEMPLAR_PT_modules,
            EXEMPLAR_PT_landscape, EXEMPLAR_PT_result, EXEMPLAR_MT_menu)

@@ -36,6 +36,7 @@ class Failure(Exception):
 class Run:
     """A mix-in for operators. `prepare` checks what is wanted, writes files into `self.folder` and
     returns the command's words; `take` puts the result into the scene."""
+    following = None  # the words of the job after this one, where it is a draft
     bl_options = {"UNDO"}  # not REGISTER, whose panel would run it again, waiting
 
     @classmethod
@@ -51,7 +52,14 @@ class Run:
     def take(self, context):
         raise NotImplementedError
 
+    def take_draft(self, context):
+        """Shows what the draft has made, where there is one."""
+
+    def drop_draft(self):
+        """Removes what `take_draft` has shown."""
+
     def invoke(self, context, _event):
+        self.shows_drafts = True
         if not self._start(context):
             return {"CANCELLED"}
         self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
@@ -60,6 +68,7 @@ class Run:
         return {"RUNNING_MODAL"}
 
     def execute(self, context):
+        self.shows_drafts = False  # nobody would see it
         if not self._start(context):
             return {"CANCELLED"}
         try:
@@ -78,11 +87,14 @@ class Run:
         elif not self.job.poll():
             self._show(context)
             return {"PASS_THROUGH"}
+        elif self._follow(context):
+            return {"PASS_THROUGH"}
         done = self._end(context)
         return self._leave(context, {"FINISHED"} if done else {"CANCELLED"})
 
     def cancel(self, context):
         """Blender ends the operator: its window closes, or it quits."""
+        self.drop_draft()
         self._drop()
         self._leave(context, None)
 
@@ -94,19 +106,35 @@ class Run:
         self.folder = tempfile.mkdtemp(prefix="exemplar_", dir=bpy.app.tempdir or None)
         self.job = None
         try:
-            words = self.prepare(context)
-            own = settings.preferences(context)
-            if own and own.cores:
-                words += ["--threads", own.cores]
-            self.job = _current = job.Job(path, words, self.folder)
+            self._run(path, self.prepare(context))
         except (Failure, ValueError, OSError) as error:
             self._drop()
             return self._fail(context, str(error), getattr(error, "names", ()))
         return True
 
+    def _run(self, path, words):
+        global _current
+        own = settings.preferences()
+        if own and own.cores:
+            words = words + ["--threads", own.cores]
+        self.job = _current = job.Job(path, words, self.folder)
+
+    def _follow(self, context):
+        """After a draft that went well: shows it, and starts what follows it."""
+        if self.following is None or self.job.cancelled or self.job.status != 0:
+            return False
+        words, self.following = self.following, None
+        try:
+            self.take_draft(context)
+            self._run(settings.found_command()[0], words)
+        except (Failure, ValueError, OSError, RuntimeError):
+            return False  # `_end` says what is wrong with the draft
+        self._show(context)
+        return True
+
     def _end(self, context):
         """Takes the result of a job that has ended; whether there is one."""
-        ended = self.job
+        ended, done = self.job, False
         try:
             if ended.cancelled:
                 settings.note(context.scene, text="cancelled")
@@ -117,6 +145,7 @@ class Run:
                                   ended.text())
             ended.warnings = [in_words(warning) for warning in ended.warnings]
             self.take(context)
+            done = True
             settings.note(context.scene)
             for warning in ended.warnings:
                 self.report({"WARNING"}, warning)
@@ -124,6 +153,8 @@ class Run:
         except (Failure, ValueError, OSError, RuntimeError) as error:
             return self._fail(context, str(error), getattr(error, "names", ()), ended.text())
         finally:
+            if not done:
+                self.drop_draft()
             own = settings.preferences(context)
             self._drop(keep=bool(own and own.keep_files))
 
@@ -191,6 +222,7 @@ def _redraw(context):
 
 def select(context, names):
     """Selects objects, and nothing else, where any of them is there."""
+    context.view_layer.update()  # it knows of what was linked just now
     things = [bpy.data.objects.get(name) for name in names]
     things = [t for t in things if t and t.name in context.view_layer.objects]
     if not things:

@@ -56,6 +56,19 @@ class Extend(bpy.types.PropertyGroup):
         "What is inside this object stays as it is, and all else is made of it"))
     guide: PointerProperty(name="Guide", type=bpy.types.Object, poll=_solid, description=(
         "Says coarsely where solid should be; it is stretched to the result's box"))
+    on: PointerProperty(name="On Object", type=bpy.types.Object, poll=_solid, description=(
+        "Lay the selected, which lies flat, on this object's surface"))
+    span: FloatProperty(name="Span", min=0, unit="LENGTH", description=(
+        "Length of the example's longest side on the surface; 0: a quarter of the surface's diagonal"))
+    base: EnumProperty(name="Base", description="What is made of the object below", items=[
+        ("none", "None", "A sheet of its own"),
+        ("under", "Under", "The sheet stands on the object"),
+        ("carve", "Carve", "The sheet is cut out of the object")])
+    height: FloatProperty(name="Height", default=1, min=0.05, soft_max=4, description=(
+        "Scales the example's height alone, on a surface"))
+    draft: BoolProperty(name="Draft First", description=(
+        "Show a coarse result as wires until the final one replaces it. It shows the size, not the "
+        "layout: another resolution is another layout"))
     thickness: FloatProperty(name="Thickness", min=0, unit="LENGTH", description=(
         "Gives open, thin meshes a thickness; 0 for solids"))
     triangles: EnumProperty(name="Triangles", default="MERGED", items=[
@@ -80,6 +93,10 @@ class Modules(bpy.types.PropertyGroup):
         ("example", "As in the Sample", "What is at a side is at that side of the sample"),
         ("free", "Free", "Anything may be at a side")])
     seed: IntProperty(name="Seed", min=0, description="Another seed, another result")
+    form: EnumProperty(name="Result", items=[
+        ("auto", "Found", "Linked duplicates up to 20,000 of them, else points"),
+        ("objects", "Linked Duplicates", "An object for each cell: to go on editing by hand"),
+        ("points", "Points", "One object of points, on which Geometry Nodes put the pieces")])
     pins: PointerProperty(name="Pins", type=bpy.types.Collection, description=(
         "Copies of the sample's objects, placed where the result must have them"))
     beside: BoolProperty(name="Beside the Sample", default=True, description=(
@@ -87,7 +104,9 @@ class Modules(bpy.types.PropertyGroup):
 
 
 class Landscape(bpy.types.PropertyGroup):
-    """Of a landscape that is a grid seen from above."""
+    """Of a landscape that is a grid seen from above, or a height map in a file."""
+    file: StringProperty(name="File", subtype="FILE_PATH", description=(
+        "A height map to make more of (.tif, .exr, .png, .asc, .r16, ...); empty: the active object"))
     scale: FloatVectorProperty(name="Scale", size=2, default=(2, 2), min=0.1, soft_max=8,
                                description="The result's size as a multiple of the landscape's")
     seed: IntProperty(name="Seed", min=0, description="Another seed, another result")

@@ -15,14 +15,23 @@ stops it. The same examples, settings and seed give the same result at any numbe
 import inspect as _inspect
 import os as _os
 
-from . import _core
-from ._core import (Cancelled, Field, Heights, InputError, LabelGrid, Mesh, __version__, engines,
-                    mesh_to_field, read_field, read_heights, read_labels, scenes)
+# A wheel brings the bundled scenes.
+_scenes = _os.path.join(_os.path.dirname(_os.path.abspath(__file__)), "scenes")
+if _os.path.isdir(_scenes):
+    _os.environ.setdefault("EXEMPLAR_SCENES", _scenes)
 
-__all__ = ["Cancelled", "Example", "Field", "Heights", "Impossible", "InputError", "LabelGrid",
-           "Mesh", "Result", "Unfinished", "engines", "measure", "mesh_to_field", "read",
-           "read_field", "read_heights", "read_labels", "read_mesh", "render", "scene", "scenes",
-           "settings", "synthesize"]
+from . import _core  # noqa: E402
+from ._core import (BlockIndex, Cancelled, Field, Heights, InputError, LabelGrid, Mesh, Pieces,
+                    __version__, adjacency, block_average, cut_pieces, engines, field_to_mesh,
+                    mesh_to_field, mesh_to_labels, nearest_neighbor_field, read_field,
+                    read_heights, read_labels, redistance, sample, scenes, violations)
+
+__all__ = ["BlockIndex", "Cancelled", "Example", "Field", "Heights", "Impossible", "InputError",
+           "LabelGrid", "Mesh", "Pieces", "Result", "Unfinished", "World", "adjacency",
+           "block_average", "cut_pieces", "engines", "field_to_mesh", "measure", "mesh_to_field",
+           "mesh_to_labels", "nearest_neighbor_field", "read", "read_field", "read_heights",
+           "read_labels", "read_mesh", "redistance", "render", "sample", "scene", "scenes",
+           "settings", "synthesize", "transfer", "violations"]
 
 
 class Impossible(RuntimeError):
@@ -104,6 +113,7 @@ class Example:
 
     def __init__(self, source, *, engine="auto", scale=None, size=None, progress=None, threads=0,
                  **settings):
+        settings = {key: value for key, value in settings.items() if value is not None}
         source = _memory(source, settings.get("cell_size"))
         name = _core._engine_for(source) if engine in ("auto", "") else engine
         known = set(_core._reading_keys(name))
@@ -119,6 +129,7 @@ class Example:
     warnings = property(lambda self: list(self._core.warnings), doc="What was left out or guessed.")
     field = property(lambda self: self._core.field, doc="Its distances, a `Field`, or None.")
     labels = property(lambda self: self._core.labels, doc="Its labels, a `LabelGrid`, or None.")
+    heights = property(lambda self: self._core.heights, doc="Its heights, `Heights`, or None.")
     mesh = property(lambda self: self._core.mesh, doc="Its triangles, a `Mesh`, or None.")
 
     def __repr__(self):
@@ -138,6 +149,9 @@ class Result:
     seed = property(lambda self: self._core.seed)
     field = property(lambda self: self._core.field, doc="Its distances, a `Field`, or None.")
     labels = property(lambda self: self._core.labels, doc="Its labels, a `LabelGrid`, or None.")
+    heights = property(lambda self: self._core.heights, doc="Its heights, `Heights`, or None.")
+    frames = property(lambda self: self._core.frames, doc=(
+        "Of labels, a list of `LabelGrid`: the frames of what changes over time, else the one."))
     origins = property(lambda self: self._core.origins, doc=(
         "(nx, ny, nz, 3) int16, for each cell the example's cell it was taken from; a view."))
     origin_example = property(lambda self: self._core.origin_example, doc=(
@@ -166,14 +180,23 @@ class Result:
         is a .vdb of its own. Returns what the format could not hold, a list of lines."""
         return self._core._save(path, origins or "", _given(settings), progress, threads)
 
-    def detail(self, factor, *, progress=None, threads=0):
-        """The same layout at a multiple of its resolution, with the example's finer detail."""
-        return Result(self._core._detail(factor, progress, threads))
+    def report(self, path, *, progress=None, threads=0):
+        """Writes a page (.html) that shows example and result to turn, with marks and figures
+        (docs/report.md)."""
+        self._core._report(path, progress, threads)
+
+    def detail(self, factor, example=None, *, progress=None, threads=0):
+        """The same layout at a multiple of its resolution, with the finer detail of its example, or
+        of another one that has the same shape: a recolored copy, say."""
+        of = [] if example is None else [_example(e)._core for e in _listed(example)]
+        return Result(self._core._detail(factor, of, progress, threads))
 
     def __repr__(self):
         return f"<exemplar.Result of {self.engine}, {self._core.extent}, seed {self.seed}>"
 
     def _repr_png_(self):
+        if self.heights:
+            return self.heights._repr_png_()
         return self.mesh()._repr_png_() if self.field or self.labels else None
 
 
@@ -184,53 +207,129 @@ def read(path, *, engine="auto", scale=None, size=None, progress=None, threads=0
                    **settings)
 
 
-def scene(name, *, engine="auto", seed=None, **settings):
-    """A bundled scene as an example; `scenes()` lists them, `seed` is another sample of it."""
-    return Example(_core._find_scene(name), engine=engine, scene_seed=seed, **settings)
+def scene(name, *, engine="auto", seed=None, extent=None, **settings):
+    """A bundled scene as an example; `scenes()` lists them. seed: another sample of its random
+    process. extent: a larger one, (x, y, z) in its boxes, at the same voxels."""
+    return Example(_core._find_scene(name), engine=engine, scene_seed=seed, scene_extent=extent,
+                   **settings)
 
 
-def synthesize(example, *, engine="auto", keep=None, guide=None, detail=1, progress=None, threads=0,
-               **settings):
+def _listed(thing):
+    return list(thing) if isinstance(thing, (list, tuple)) else [thing]
+
+
+def _example(thing, engine="auto"):
+    return thing if isinstance(thing, Example) else Example(thing, engine=engine)
+
+
+def synthesize(example, *, engine="auto", keep=None, guide=None, on=None, detail=1, progress=None,
+               threads=0, **settings):
     """Makes more of an example, or of a list of examples mixed, and returns a `Result`.
 
     engine: who makes it; `engines()` lists them. auto: as the example asks for.
     keep: a Mesh, a Field or a path: what is inside this solid stays as it is.
     guide: a Mesh, a Field, Heights or a path that says coarsely where solid should be.
+    on: a Mesh or a path: the surface that the example, which lies flat, is laid on.
     detail: re-make the result at this many times the resolution, with the example's finer detail.
     progress: called with (stage, fraction) about twenty times a second; False stops the work.
     threads: cores to use, 0 for all; the result does not depend on it.
 
     Throws InputError, Impossible, Unfinished, Cancelled, and KeyboardInterrupt at Ctrl-C."""
-    examples = list(example) if isinstance(example, (list, tuple)) else [example]
-    examples = [e if isinstance(e, Example) else Example(e, engine=engine) for e in examples]
+    if engine == "auto" and on is not None:
+        engine = "surface"
+    examples = [_example(e, engine) for e in _listed(example)]
     if engine == "auto":
         first = examples[0]._core
         engine = "geometry" if first.field else "model" if first.labels else "auto"
     name = engine if engine != "auto" else "geometry"
-    keep = keep if keep is None else _memory(keep)
-    guide = guide if guide is None else _memory(guide)
+    keep, guide, on = (thing if thing is None else _memory(thing) for thing in (keep, guide, on))
     core = _core._synthesize([e._core for e in examples], engine, _given(
-        settings, _repeating(name)), keep, guide, detail, progress, threads)
-    if core.outcome == "impossible":
-        raise Impossible(core.why, core.conflict)
-    if core.outcome != "complete":
-        raise Unfinished(core.why)
+        settings, _repeating(name)), keep, guide, on, detail, progress, threads)
+    _require_complete(core.outcome, core.why, core.conflict)
     return Result(core)
 
 
-def measure(result, *, progress=None, threads=0):
-    """`Result.measure`."""
-    return result.measure(progress=progress, threads=threads)
+def _require_complete(outcome, why, conflict=None):
+    if outcome == "impossible":
+        raise Impossible(why, conflict)
+    if outcome != "complete":
+        raise Unfinished(why)
+
+
+def measure(example, result=None, *, origins=None, mesh=None, progress=None, threads=0):
+    """How alike, how new, how seamless: a dict of dicts (docs/measures.md). Of a `Result`, or of
+    something against an example: a Field, a Mesh, a LabelGrid or a path. origins: as
+    `Result.origins` has them; mesh: the surface of a Field."""
+    if result is None:
+        return example.measure(progress=progress, threads=threads)
+    if isinstance(result, Result):
+        return result.measure(progress=progress, threads=threads)
+    return _core._measure(_example(example)._core, _memory(result), origins, mesh, progress, threads)
+
+
+def transfer(mesh, result, *, textures="auto", blend=1.5, source=False):
+    """A copy of a mesh, which lies where a result's surface does (a decimated one, say), with the
+    materials, colors and texture coordinates of the result's example, through its origins.
+
+    textures: auto, coordinates, vertex_colors or drop. blend: voxels over which colors are mixed
+    at seams. source: keep where each corner came from."""
+    return _memory(mesh)._transfer(result._core, textures, blend, source)
+
+
+class World:
+    """An example of labels or of pieces without end: any tile alone, in any order, on any machine,
+    always the same bytes, and fitting its neighbors (docs/worlds.md).
+
+        world = exemplar.World.create("land", "castle", seed=7)
+        world.tile(3, -2).mesh().write("there.glb")
+    """
+
+    def __init__(self, folder, *, cached=False):
+        """Opens the world in a folder. cached: keep what tiles share in that folder, too."""
+        self._core, self._warnings = _core._open_world(folder, cached), []
+
+    @classmethod
+    def create(cls, folder, example, *, engine="auto", tile=72, window=36, height=None,
+               progress=None, threads=0, **settings):
+        """Makes a world in a folder, or opens the same one where it is there. tile: columns along
+        a tile's sides, 8 to 1024. window: columns from one window to the next, 12 to 512. height:
+        cells; the example's. Settings are those of reading, of the engine, and `seed`."""
+        name = "model" if engine == "auto" else engine
+        core, outcome, why, warnings = _core._create_world(
+            folder, _memory(example), engine, _given(settings, _repeating(name)), tile, window,
+            height, progress, threads)
+        _require_complete(outcome, why)
+        world = cls.__new__(cls)
+        world._core, world._warnings = core, warnings
+        return world
+
+    folder = property(lambda self: self._core.folder, doc="Where it is, a pathlib.Path.")
+    engine = property(lambda self: self._core.engine, doc="What makes it.")
+    seed = property(lambda self: self._core.seed)
+    tile_size = property(lambda self: self._core.tile_size, doc="Columns along a tile's sides.")
+    height = property(lambda self: self._core.height, doc="Cells.")
+    warnings = property(lambda self: list(self._warnings), doc="What was doubtful when it was made.")
+
+    def tile(self, x, y, *, progress=None, threads=0):
+        """One tile, a `Result`. May be called from several threads."""
+        return Result(self._core._tile(x, y, progress, threads))
+
+    def tiles(self, x, y, *, progress=None, threads=0):
+        """Several tiles as one `Result`: x and y are ranges, (first, one past the last)."""
+        return Result(self._core._tiles([*x, *y], progress, threads))
+
+    def __repr__(self):
+        return f"<exemplar.World in {self.folder}, {self.engine}, seed {self.seed}>"
 
 
 def render(thing, *, size=(640, 480), view="iso", samples=32, progress=None):
     """A picture of a mesh, an example or a result: height x width x 3, uint8. `view` is iso, front,
     back, left, right, top, bottom, or "AZIMUTH,ELEVATION" in degrees."""
     if isinstance(thing, Result):
-        thing = thing.mesh()
+        thing = thing.heights or thing.mesh()
     elif isinstance(thing, Example):
         thing = _core._pictured(thing._core)
-    elif isinstance(thing, (Field, LabelGrid)):
+    elif isinstance(thing, (Field, LabelGrid, Heights)):
         thing = thing.to_mesh()
     return _memory(thing)._render(int(size[0]), int(size[1]), view, samples, progress)
 
@@ -261,17 +360,19 @@ def _add_methods():
     """What is plain Python of the classes that are not."""
     from . import interop
 
-    def write(self, path, *, up="auto"):
-        """Writes the mesh in the format of the path's ending. up: which axis is up in it."""
-        self._write(path, up)
+    def write(self, path, *, up="auto", normals="crease"):
+        """Writes the mesh in the format of the path's ending. up: which axis is up in it. normals:
+        crease (hard edges where faces meet at more than 40 degrees), smooth or none."""
+        self._write(path, up, normals)
 
     Mesh.write = write
-    for kind in (Mesh, Field, LabelGrid):
+    for kind in (Mesh, Field, LabelGrid, Heights):
         kind._repr_png_ = lambda self: _png(self if isinstance(self, Mesh) else self.to_mesh())
     for name in ("to_trimesh", "to_meshio", "to_pyvista", "to_open3d"):
         setattr(Mesh, name, getattr(interop, name))
     Field.to_openvdb, Field.from_openvdb = interop.to_openvdb, staticmethod(interop.from_openvdb)
-    Field.to_xarray = interop.to_xarray
+    Field.to_xarray = LabelGrid.to_xarray = interop.to_xarray
+    Heights.to_xarray = interop.heights_to_xarray
 
     def as_array(values):
         def __array__(self, dtype=None, copy=None):

@@ -68,12 +68,27 @@ def from_openvdb(grid):
                  truncation=grid.background if grid.background > 0 else float("inf"))
 
 
-def to_xarray(field):
-    """An xarray.DataArray with the coordinates of voxel centers."""
+def to_xarray(grid):
+    """An xarray.DataArray of a Field or a LabelGrid, with the coordinates of centers."""
     import xarray
-    axes = [o + field.voxel_size * _np.arange(n) for o, n in zip(field.origin, field.shape)]
-    return xarray.DataArray(field.values, dims=("x", "y", "z"), name="distance",
+    distances = hasattr(grid, "voxel_size")
+    steps = [grid.voxel_size] * 3 if distances else grid.cell_size
+    # A field's origin is its first sample, a grid's the corner of its first cell.
+    first = [o + (0 if distances else h / 2) for o, h in zip(grid.origin, steps)]
+    axes = [o + h * _np.arange(n) for o, h, n in zip(first, steps, grid.shape)]
+    return xarray.DataArray(grid.values if distances else grid.labels, dims=("x", "y", "z"),
+                            name="distance" if distances else "label",
                             coords=dict(zip("xyz", axes)))
+
+
+def heights_to_xarray(heights):
+    """An xarray.DataArray, rows from the north."""
+    import xarray
+    rows, columns = heights.heights.shape
+    return xarray.DataArray(
+        heights.heights, dims=("y", "x"), name="height",
+        coords={"y": heights.cell_size * (rows - 1 - _np.arange(rows)),
+                "x": heights.cell_size * _np.arange(columns)})
 
 
 def _openvdb():

@@ -194,6 +194,37 @@ class Extend(InAScene):
         self.assertGreater(len(inside), 50)
         self.assertLess(np.quantile(far, 0.9), 0.1)  # the ball is there, to a voxel
 
+    def test_lies_on_another_object(self):
+        """Studs on a plate, on a ball."""
+        made = bpy.data.meshes.new("Studs")
+        points, faces = [], []
+        for x in range(6):
+            for y in range(6):
+                for low, high in (((x, y, 0), (x + 1, y + 1, 0.3)),
+                                  ((x + 0.25, y + 0.25, 0.2), (x + 0.75, y + 0.75, 0.8))):
+                    at = len(points)
+                    points += [tuple((low, high)[n >> a & 1][a] for a in range(3)) for n in range(8)]
+                    faces += [[at + n for n in quad] for quad in (
+                        (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))]
+        made.from_pydata(points, [], faces)
+        made.materials.append(scene.material("Gold", (0.9, 0.7, 0.1)))
+        studs = bpy.data.objects.new("Studs", made)
+        studs.location = (30, 0, 0)
+        bpy.context.scene.collection.objects.link(studs)
+        ball = solid("Ball", (5, 5, 5), 6.0, 32)
+        more = extend(studs, on=ball, span=8.0, samples=24)
+        self.assertIs(more.data.materials[0], bpy.data.materials["Gold"])
+        away = np.linalg.norm(scene.world_points(more) - (5, 5, 5), axis=1)
+        # 0.8 of height, 8/6 as large on the ball, which lies about in the middle of them.
+        self.assertLess(abs(np.median(away) - 6), 0.3)
+        self.assertLess(abs(np.ptp(away) - 0.8 * 8 / 6), 0.25)
+        # All around it, not on one side.
+        self.assertLess(np.abs(scene.world_points(more).mean(0) - (5, 5, 5)).max(), 0.5)
+        self.assertFalse(ball.hide_get())
+        scene.choose(more)
+        with self.assertRaisesRegex(RuntimeError, "choose more Detail"):
+            bpy.ops.exemplar.again(how="REFINE2")
+
     def test_guide_and_mix_are_heard(self):
         first = solid(size=0.8)
         other = bpy.data.collections.new("Others")
@@ -357,6 +388,55 @@ class Modules(InAScene):
         self.assertEqual(bpy.data.collections["Sample more"]["exemplar_seed"], 1)
         self.assertEqual(len(places), len(more.objects))
 
+    def shown(self):
+        """What is seen of the result, instances as objects: data and place."""
+        bpy.context.view_layer.update()
+        made = set(bpy.data.collections["Sample more"].objects)
+        found = []
+        for instance in bpy.context.evaluated_depsgraph_get().object_instances:
+            owner = instance.parent if instance.is_instance else instance.object
+            if owner is None or owner.original not in made or not instance.object.data:
+                continue
+            if len(instance.object.data.vertices) != 3:
+                continue  # the points themselves
+            found.append((instance.object.data.name,
+                          tuple(round(v, 3) + 0.0 for row in instance.matrix_world for v in row)))
+        return sorted(found)
+
+    def test_as_points_show_what_objects_show(self):
+        collection, group = self.sample(["AbAb", "bAbA", "AbAb"])
+        collection.objects[0].scale.x = -1  # a mirrored one is a label of its own
+        bpy.context.view_layer.update()
+        group.form = "objects"
+        self.assertEqual(bpy.ops.exemplar.modules(), {"FINISHED"})
+        as_objects = self.shown()
+        self.assertGreater(len(as_objects), 20)
+        group = bpy.context.scene.exemplar.modules
+        more = bpy.data.collections["Sample more"]
+        for thing in list(more.objects):
+            bpy.data.objects.remove(thing)
+        bpy.data.collections.remove(more)
+        group.form = "points"
+        self.assertEqual(bpy.ops.exemplar.modules(), {"FINISHED"})
+        self.assertEqual(len(bpy.data.collections["Sample more"].objects), 1)
+        self.assertEqual(self.shown(), as_objects)
+        # Another seed leaves nothing of the one before.
+        blocks = [len(stock) for stock in (bpy.data.objects, bpy.data.meshes, bpy.data.collections,
+                                           bpy.data.node_groups)]
+        self.assertEqual(bpy.ops.exemplar.modules_again(), {"FINISHED"})
+        self.assertEqual([len(stock) for stock in (bpy.data.objects, bpy.data.meshes,
+                                                   bpy.data.collections, bpy.data.node_groups)], blocks)
+
+    def test_many_become_points(self):
+        _, group = self.sample(["AB", "BA"])
+        group.size = (160, 150, 1)
+        self.assertEqual(bpy.ops.exemplar.modules(), {"FINISHED"})
+        thing, = bpy.data.collections["Sample more"].objects
+        self.assertEqual(len(thing.data.vertices), 160 * 150)
+        group.form = "objects"
+        with self.assertRaisesRegex(RuntimeError, "choose points"):
+            bpy.ops.exemplar.modules()
+
     def test_pins_hold_and_those_that_exclude_each_other_are_selected(self):
         collection, group = self.sample(["AB", "BA"])
         pins = bpy.data.collections.new("Pins")
@@ -410,6 +490,24 @@ class Landscape(InAScene):
         np.testing.assert_allclose(now.min(0)[:2], was.min(0)[:2], atol=1e-4)
         self.assertLess(abs(now[:, 2].std() / was[:, 2].std() - 1), 0.4)
         self.assertGreater(min(f.normal.z for f in more.data.polygons), 0)
+
+    def test_may_come_from_a_file(self):
+        path = os.path.join(bpy.app.tempdir, "land.asc")
+        y, x = np.mgrid[:40, :50]
+        with open(path, "w", encoding="ascii") as file:
+            file.write("ncols 50\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 2\n")
+            np.savetxt(file, 5 * np.sin(x / 6) + 4 * np.cos(y / 5), fmt="%.4f")
+        group = bpy.context.scene.exemplar.landscape
+        group.file, group.scale = path, (1, 2)
+        self.assertEqual(bpy.ops.exemplar.landscape(), {"FINISHED"})
+        more = bpy.context.active_object
+        self.assertEqual((more.name, len(more.data.vertices)), ("land more", 50 * 80))
+        np.testing.assert_allclose(np.ptp(scene.world_points(more), axis=0)[:2], [98, 158], atol=1e-3)
+        self.assertFalse(bpy.ops.exemplar.restore.poll())
+        group.file = path + ".gone"
+        with self.assertRaisesRegex(RuntimeError, "there is no file"):
+            bpy.ops.exemplar.landscape()
+        os.remove(path)
 
     def test_refuses_what_is_no_grid(self):
         scene.choose(solid())

@@ -63,6 +63,10 @@ def idle():
     return not busy()
 
 
+def drafted():
+    return "Wall draft" in bpy.data.objects
+
+
 def steps():
     scene.install()
     scene.empty_scene()
@@ -104,6 +108,29 @@ def steps():
     assert scene.state() == made, scene.state()
     press("Z", ctrl=True)
     yield 0.5
+
+    # A draft is shown as wires until the result replaces it, in one undo step; Esc leaves none.
+    scene.choose(bpy.data.objects["Wall"])
+    before = scene.state()
+    start(draft=True, samples=120)
+    yield from until(drafted, 60)
+    draft = bpy.data.objects["Wall draft"]
+    assert draft.display_type == "WIRE" and not bpy.data.objects["Wall"].hide_get() and busy()
+    yield from until(idle, 120)
+    yield 0.3
+    assert "Wall draft" not in bpy.data.objects and "Wall draft" not in bpy.data.meshes
+    assert bpy.data.objects["Wall more"].display_type == "TEXTURED"
+    press("Z", ctrl=True)
+    yield 0.5
+    assert scene.state() == before, scene.state()
+    scene.choose(bpy.data.objects["Wall"])
+    before = scene.state()
+    start(draft=True, samples=250, scale=(8, 1, 1))
+    yield from until(drafted, 60)
+    press("ESC")
+    yield from until(idle, 20)
+    assert scene.state() == before, scene.state()
+    assert scene.leftovers() == ([], []), scene.leftovers()
 
     # The source is deleted while it runs: the result is where it was.
     place = bpy.data.objects["Wall"].matrix_world.copy()

@@ -68,7 +68,7 @@ TEST(English, IsAmericanAndTheFieldsOwn) {
        entry != fs::recursive_directory_iterator(); ++entry) {
     const std::string name = fs::relative(entry->path(), root).string();
     if (name == "build" || name == "out" || name == ".git" || name == "tests/fuzz/corpus" ||
-        entry->path().filename() == "node_modules") {
+        name == "LICENSES" || entry->path().filename() == "node_modules") {
       entry.disable_recursion_pending();
       continue;
     }

@@ -60,7 +60,7 @@ TEST(VdbFile, ComesBackToTheLastBit) {
 TEST(VdbFile, RecordsTheAxesAlongWhichAFieldIsPeriodic) {
   const TemporaryFolder folder;
   for (const Axes& recorded : {Axes{true, false, true}, Axes::none()}) {
-    writeVdb(folder / "field.vdb", torusField(0.18), recorded);
+    writeVdb(folder / "field.vdb", torusField(0.18), {.wraps = recorded});
     Axes wraps = Axes::every();
     expectSame(readVdb(folder / "field.vdb", {}, &wraps), torusField(0.18));
     EXPECT_EQ(wraps, recorded);
@@ -420,7 +420,7 @@ TEST(VdbFile, KeepsHowAFieldLiesTurned) {
   const TemporaryFolder folder;
   const DistanceField field = torusField(0.18);
   const Turn turn(0.7, {448262, 5411932, 30});
-  writeVdb(folder / "turned.vdb", field, {}, turn);
+  writeVdb(folder / "turned.vdb", field, {.turn = turn});
   Turn found;
   const DistanceField read = readVdb(folder / "turned.vdb", {.turn = &found});
   EXPECT_EQ(read.values, field.values);
@@ -458,7 +458,7 @@ TEST(VdbFile, ReportsItsProgressAndStopsWhereItIsCancelled) {
   const TemporaryFolder folder;
   const DistanceField field = torusField(0.18);
   const std::filesystem::path path = folder / "field.vdb", origins = folder / "origins.vdb";
-  expectReportsAndStops([&](const Progress& p) { writeVdb(path, field, {}, {}, p); }, 4);
+  expectReportsAndStops([&](const Progress& p) { writeVdb(path, field, {}, p); }, 4);
   expectReportsAndStops([&](const Progress& p) { readVdb(path, {}, nullptr, p); }, 4);
   const Origins from(field.size(), Origin(Vec3i{1, 2, 3}));
   expectReportsAndStops([&](const Progress& p) { writeOriginsVdb(origins, from, field, {}, p); },
@@ -473,7 +473,7 @@ TEST(VdbFile, ACancelledWriteLeavesWhatWasThere) {
   const std::string before = readFile(path);
   for (std::size_t reports = 0; reports < 4; ++reports) {
     EXPECT_TRUE(stopsAfter(
-        reports, [&](const Progress& p) { writeVdb(path, torusField(0.15), {}, {}, p); }));
+        reports, [&](const Progress& p) { writeVdb(path, torusField(0.15), {}, p); }));
     EXPECT_EQ(readFile(path), before);
   }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1);
