@@ -99,7 +99,7 @@ TriangleMesh makeSphere(const Vec3d& center, double radius, int frequency) {
 }
 
 TriangleMesh makeBox(const Box3d& box) {
-  assert(box.min.x < box.max.x && box.min.y < box.max.y && box.min.z < box.max.z);
+  assert(box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z);
   TriangleMesh mesh;
   for (int n = 0; n < 8; ++n)  // bits: x, y, z
     mesh.positions.push_back({n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y,

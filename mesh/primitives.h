@@ -19,7 +19,7 @@ namespace exemplar {
 /// triangles, nearly equal; the longest edge is about 1.26 radius / frequency.
 TriangleMesh makeSphere(const Vec3d& center, double radius, int frequency = 8);
 
-/// An axis-aligned box: 12 triangles. `box` is not empty and has no side of length 0.
+/// An axis-aligned box: 12 triangles, some without area where `box` is flat. `box` is not empty.
 TriangleMesh makeBox(const Box3d& box);
 
 /// A torus around `axis` (any length but 0). `ringRadius`: from the center to the middle of the
