@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "engine/comparison.h"
 #include "engine/request.h"
+#include "engine/terrain_comparison.h"
 #include "engine/words.h"
 
 namespace exemplar {
@@ -23,7 +24,7 @@ namespace {
 
 struct Options {
   std::string example, folder;
-  std::vector<std::string> engines{"blocks", "geometry", "model"};
+  std::vector<std::string> engines;  // by default those that suit the example
   std::uint64_t firstSeed = 0;
   int seeds = 3;
   Settings settings;
@@ -75,9 +76,31 @@ void sayFrontier(const std::vector<ComparedRun>& runs, Terminal& terminal) {
   }
 }
 
+/// Terrain's figures, each beside the example's or its halves'.
+void say(const ComparedTerrain& run, Terminal& terminal) {
+  std::string text = "seed " + std::to_string(run.seed) + ": ";
+  if (run.status == "complete") {
+    const TerrainLikeness& t = run.likeness;
+    text += readableSeconds(run.seconds) + ", slopes " + readable(t.slopes.result) + " (floor " +
+            readable(t.slopes.floor) + "), curvature " + readable(t.curvature.result) + " (" +
+            readable(t.curvature.floor) + "), flooded " + readable(t.result.floodedShare) +
+            " (example " + readable(t.example.floodedShare) + "), copied shapes " +
+            readable(t.copiedShapes.result) + " (floor " + readable(t.copiedShapes.floor) + ")";
+  } else {
+    text += run.status + ": " + run.why;
+  }
+  terminal.say(run.engine, text);
+}
+
 void compareEngines(const Options& options, Terminal& terminal) {
+  const bool isTerrain = sourceKind(Source(options.example)) == SourceKind::HeightMap;
+  std::vector<std::string> engines = options.engines;
+  if (engines.empty()) {
+    engines = isTerrain ? std::vector<std::string>{"terrain", "layered", "geometry"}
+                        : std::vector<std::string>{"blocks", "geometry", "model"};
+  }
   ComparisonOptions comparison;
-  for (const std::string& engine : options.engines) {
+  for (const std::string& engine : engines) {
     try {
       comparison.engines.push_back(parseComparedEngine(engine));
     } catch (const InputError& error) {
@@ -103,18 +126,24 @@ void compareEngines(const Options& options, Terminal& terminal) {
   ReadOptions reading = readingOf(options.settings, Form::Field);
   reading.wanted = Extent{.scale = comparison.scale, .size = {}};
   comparison.mesh = reading.mesh;
-  const Example example = readExample(options.example, reading, terminal.progress().part(0, 0.1));
-  terminal.say("example", options.example + ": " + example.description);
-  for (const std::string& warning : example.warnings) terminal.warn(warning);
-  std::vector<ComparedRun> runs;
-  compare(
-      example, comparison,
-      [&](const ComparedRun& run) {
-        say(run, terminal);
-        runs.push_back(run);
-      },
-      terminal.progress().part(0.1, 1));
-  sayFrontier(runs, terminal);
+  if (isTerrain) {
+    compareTerrain(
+        options.example, reading, comparison,
+        [&](const ComparedTerrain& run) { say(run, terminal); }, terminal.progress());
+  } else {
+    const Example example = readExample(options.example, reading, terminal.progress().part(0, 0.1));
+    terminal.say("example", options.example + ": " + example.description);
+    for (const std::string& warning : example.warnings) terminal.warn(warning);
+    std::vector<ComparedRun> runs;
+    compare(
+        example, comparison,
+        [&](const ComparedRun& run) {
+          say(run, terminal);
+          runs.push_back(run);
+        },
+        terminal.progress().part(0.1, 1));
+    sayFrontier(runs, terminal);
+  }
   for (const std::string& warning : ofPictures) terminal.warn(warning);
   for (const auto& [label, name] :
        {std::pair{"figures", "compare.json"}, {"report", "report.html"}}) {
@@ -149,7 +178,7 @@ Command addCompareCommand(CLI::App& app) {
                    "fields); each as often as you like with other settings of its own, as in "
                    "geometry,geometry:levels=2,model:field-block=12:field-tolerance=1")
       ->delimiter(',')
-      ->option_text("blocks,geometry,model");
+      ->option_text("blocks,geometry,model; of a height map terrain,layered,geometry");
   SettingOptions rows;
   for (const Setting& setting : requestSettings())
     if (setting.key == "scale") rows.add("Results", "", {&setting, 1});

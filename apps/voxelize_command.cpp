@@ -58,7 +58,7 @@ Command addVoxelizeCommand(CLI::App& app) {
       app.add_subcommand("voxelize", "Write an example as a grid of labels (cells of materials)");
   command
       ->add_option("EXAMPLE", options->example,
-                   "a mesh, a scene, a volume, a height map (.asc .tif .exr .pgm .r16), a picture "
+                   "a mesh, a scene, a volume, a height map (.asc .tif .exr .pgm .r16 .raw), a picture "
                    "or a label grid")
       ->required();
   command

@@ -7,15 +7,14 @@
 #include <filesystem>
 #include <system_error>
 
-#include "core/file.h"
+#include "maps/height_map_file.h"
 
 namespace exemplar {
 namespace {
 
 /// Whether a file holds integers, and nothing says what they stand for.
 bool needsScale(const Source& source) {
-  const std::string ending = lowerExtension(source.path());
-  if (ending != ".png" && ending != ".pgm" && ending != ".r16") return false;
+  if (!holdsIntegers(source.path())) return false;
   std::error_code error;
   return source.inMemory<std::string>() ||
          !std::filesystem::exists(heightSidecarPath(source.path()), error);

@@ -171,7 +171,7 @@ Written writeTriangles(const fs::path& path, const TriangleMesh& mesh,
 const char* outputEndings(Form form) {
   switch (form) {
     case Form::Field:
-      return ".obj .ply .stl .off .glb .gltf .vdb .asc .tif .exr .png .pgm .r16";
+      return ".obj .ply .stl .off .glb .gltf .vdb .asc .tif .exr .png .pgm .r16 .raw";
     case Form::Labels:
       return ".txt .vox .vdb .png .tmx .csv .json .obj .ply .stl .off .glb .gltf .gif";
     case Form::Map:
@@ -179,7 +179,7 @@ const char* outputEndings(Form form) {
     case Form::Polygons:
       return ".obj .ply .stl .off .glb .gltf .svg";
     case Form::Heights:
-      return ".asc .tif .tiff .exr .png .pgm .r16 .obj .ply .stl .off .glb .gltf";
+      return ".asc .tif .tiff .exr .png .pgm .r16 .raw .obj .ply .stl .off .glb .gltf";
     default:
       return kMeshEndings;
   }
@@ -207,8 +207,7 @@ std::vector<fs::path> filesOf(std::span<const std::string> outputs, int lods) {
     files.push_back(path);
     if (endsWith(path, ".obj")) files.push_back(fs::path(path).replace_extension(".mtl"));
     // What a file of integers cannot say about heights.
-    for (const char* ending : {".png", ".pgm", ".r16"})
-      if (endsWith(path, ending)) files.push_back(heightSidecarPath(path));
+    if (holdsIntegers(path)) files.push_back(heightSidecarPath(path));
   };
   for (const std::string& output : outputs) {
     add(output);

@@ -77,7 +77,7 @@ enum class SourceKind {
   Pieces,     ///< .toml: a scene made of model pieces on a grid
   Solids,     ///< .toml: a scene of solids between planes; .svg: a drawing
   Volume,     ///< .vdb of signed distances
-  HeightMap,  ///< .asc .tif .exr .png .pgm .r16
+  HeightMap,  ///< .asc .tif .exr .png .pgm .r16 .raw
   Labels,     ///< .txt .vox .tmx .csv, .vdb of labels
   Picture,    ///< .jpg; a .png, too, where labels are asked for
 };
@@ -91,7 +91,8 @@ void requireThere(const Source& source);
 
 /// The endings of examples, for help and errors.
 inline constexpr const char* kExampleEndings =
-    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .tif .exr .r16 .txt .vox .tmx .csv .jpg "
+    ".obj .ply .stl .off .glb .gltf .vdb .png .pgm .asc .tif .exr .r16 .raw .txt .vox .tmx .csv "
+    ".jpg "
     ".svg or .toml";
 
 /// Read what a source holds. Throw `InputError` naming it, and `Cancelled`.

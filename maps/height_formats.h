@@ -21,6 +21,7 @@ struct HeightSidecar {
   std::optional<MapCorner> corner;
   double step = 1, offset = 0;
   std::optional<int> noData;  ///< the integer that stands for holes
+  bool floats = false;        ///< of .raw: 32-bit floats, else 16-bit integers
 };
 
 /// A file that is being read.
@@ -40,14 +41,14 @@ struct HeightFile {
 HeightMap readEsriGrid(const HeightFile& file);
 HeightMap readPgm(const HeightFile& file);
 HeightMap readPngHeights(const HeightFile& file);
-HeightMap readR16(const HeightFile& file);
+HeightMap readRaw(const HeightFile& file);
 HeightMap readTiff(const HeightFile& file);
 HeightMap readExr(const HeightFile& file);
 
 std::string esriGridText(const HeightMap& map, const Progress& progress);
 std::string tiffBytes(const HeightMap& map, const std::string& name, const Progress& progress);
 std::string exrBytes(const HeightMap& map, const std::string& name);
-/// Writes a .png, .pgm or .r16 and what is beside it.
+/// Writes a .png, .pgm, .r16 or .raw and what is beside it.
 void writeIntegers(const std::filesystem::path& path, const HeightMap& map,
                    const HeightMapFileOptions& options, const Progress& progress);
 

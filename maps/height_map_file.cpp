@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // A map without a cell size of its own is this many reliefs wide.
 constexpr double kSidePerRelief = 5;
 
-std::string readableEndings() { return ".asc, .tif, .exr, .png, .pgm or .r16"; }
+std::string readableEndings() { return ".asc, .tif, .exr, .png, .pgm, .r16 or .raw"; }
 
 void checkOptions(const HeightMapFileOptions& options) {
   const auto check = [](const std::optional<double>& value, const char* name) {
@@ -42,7 +42,7 @@ HeightMap readFormat(const HeightFile& file) {
   if (ending == ".asc") return readEsriGrid(file);
   if (ending == ".pgm") return readPgm(file);
   if (ending == ".png") return readPngHeights(file);
-  if (ending == ".r16") return readR16(file);
+  if (ending == ".r16" || ending == ".raw") return readRaw(file);
   if (ending == ".exr") return readExr(file);
   if (ending == ".tif" || ending == ".tiff") return readTiff(file);
   file.fail("is no height map; its ending must be " + readableEndings());
@@ -110,6 +110,11 @@ bool isHeightMapFile(const fs::path& path) {
          (" " + std::string(kHeightMapEndings) + " ").find(" " + ending + " ") != std::string::npos;
 }
 
+bool holdsIntegers(const fs::path& path) {
+  const std::string ending = lowerExtension(path);
+  return ending == ".png" || ending == ".pgm" || ending == ".r16" || ending == ".raw";
+}
+
 HeightMap readHeightMap(const fs::path& path, const HeightMapFileOptions& options,
                         const Progress& progress) {
   checkOptions(options);
@@ -119,8 +124,7 @@ HeightMap readHeightMap(const fs::path& path, const HeightMapFileOptions& option
   const std::string bytes = readFile(path, progress.part(0, 0.1));
   const Progress rest = progress.part(0.1, 1);
   HeightFile file{bytes, name, options, rest};
-  const std::string ending = lowerExtension(path);
-  if (ending == ".png" || ending == ".pgm" || ending == ".r16") file.sidecar = readSidecar(path);
+  if (holdsIntegers(path)) file.sidecar = readSidecar(path);
   return read(file);
 }
 

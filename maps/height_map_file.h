@@ -18,7 +18,7 @@
 namespace exemplar {
 
 /// The endings of height maps that are read and written.
-inline constexpr const char* kHeightMapEndings = ".asc .tif .tiff .exr .png .pgm .r16";
+inline constexpr const char* kHeightMapEndings = ".asc .tif .tiff .exr .png .pgm .r16 .raw";
 
 struct HeightMapFileOptions {
   /// World distance of neighboring points; > 0. By default what the file or the .json beside it
@@ -35,14 +35,17 @@ struct HeightMapFileOptions {
 
 /// Whether the path has one of `kHeightMapEndings`, in any case.
 bool isHeightMapFile(const std::filesystem::path& path);
+/// Whether it is of those that hold integers, of which `FILE.json` says what they stand for.
+bool holdsIntegers(const std::filesystem::path& path);
 
 /// Reads an ESRI `.asc` grid, a gray `.tif` (integers or floats, GeoTIFF tags where there are any,
 /// GDAL's NODATA), one channel of an `.exr`, 16- or 8-bit gray `.png`, `.pgm` (P2 and P5), or
-/// `.r16` (16-bit integers, low byte first, without a header: a square, or what the .json beside it
-/// says). Cells without data (NODATA, up to a float's rounding; NaN; -9999 and the like in an .asc
-/// without NODATA_value; transparent pixels) are NaN. Cells in degrees of longitude and latitude
-/// get a size in meters, which a warning states. What integers stand for and how large cells are is
-/// read from `FILE.json`, as `writeHeightMap` writes it.
+/// `.r16` and `.raw` (without a header: 16-bit integers, low byte first, that make a square, or the
+/// width, height and, of .raw, type uint16 or float32 that the .json beside it says). Cells without
+/// data (NODATA, up to a float's rounding; NaN; -9999 and the like in an .asc without NODATA_value;
+/// transparent pixels) are NaN. Cells in degrees of longitude and latitude get a size in meters,
+/// which a warning states. What integers stand for and how large cells are is read from
+/// `FILE.json`, as `writeHeightMap` writes it.
 ///
 /// Throws `InputError` naming the file, and the line in text, for anything malformed, without data,
 /// with cells that are not square, or smaller than 2 x 2, and `Cancelled`. Memory is asked for
@@ -59,14 +62,14 @@ HeightMap readHeightMap(std::string_view bytes, const std::string& name,
 std::filesystem::path heightSidecarPath(const std::filesystem::path& path);
 
 /// Writes heights: `.asc`, `.tif` (32-bit floats, GeoTIFF) and `.exr` (32-bit floats) as they are,
-/// `.png`, `.pgm` and `.r16` as 16-bit integers. Heights are never stretched: integers count steps
-/// of `options.heightScale` or else `map.steps`, finer where those came from a file of fewer bits,
-/// so that 8-bit maps become 16-bit ones of the same brightness; without both, or where these do
-/// not hold the heights, steps of 1 for whole numbers and else of a power of two. What the integers
-/// stand for, and how large cells are, goes into `FILE.json`, and a warning says so; no such file
-/// is left where nothing has to be said. With `options.heightScale`, heights that do not fit are
-/// clamped, and a warning counts them. Each file is whole or not there. Throws `InputError`, also
-/// where `FILE.json` is there and something else, and `Cancelled`.
+/// `.png`, `.pgm`, `.r16` and `.raw` as 16-bit integers. Heights are never stretched: integers
+/// count steps of `options.heightScale` or else `map.steps`, finer where those came from a file of
+/// fewer bits, so that 8-bit maps become 16-bit ones of the same brightness; without both, or where
+/// these do not hold the heights, steps of 1 for whole numbers and else of a power of two. What the
+/// integers stand for, and how large cells are, goes into `FILE.json`, and a warning says so; no
+/// such file is left where nothing has to be said. With `options.heightScale`, heights that do not
+/// fit are clamped, and a warning counts them. Each file is whole or not there. Throws
+/// `InputError`, also where `FILE.json` is there and something else, and `Cancelled`.
 void writeHeightMap(const std::filesystem::path& path, const HeightMap& map,
                     const HeightMapFileOptions& options = {}, const Progress& progress = {});
 

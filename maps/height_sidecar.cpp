@@ -65,6 +65,11 @@ std::optional<HeightSidecar> readSidecar(const fs::path& path) {
   sidecar.offset = number(place, json, "height_offset", -kMost, kMost).value_or(0);
   if (const auto noData = number(place, json, "no_data", 0, 65535))
     sidecar.noData = static_cast<int>(*noData);
+  if (json.contains("type")) {
+    sidecar.floats = json["type"] == "float32";
+    if (!sidecar.floats && json["type"] != "uint16")
+      fail(place, "\"type\" must be \"uint16\" or \"float32\"");
+  }
   return sidecar;
 }
 
@@ -81,7 +86,9 @@ void requireSidecarPlace(const fs::path& path) {
 void writeSidecar(const fs::path& path, const HeightSidecar& sidecar, Warnings* warnings) {
   const fs::path place = heightSidecarPath(path);
   const bool usual = sidecar.step == 1 && sidecar.offset == 0;
-  if (usual && !sidecar.cellSize && !sidecar.noData) {
+  const std::string ending = lowerExtension(path);
+  const bool saysSize = (ending != ".r16" && ending != ".raw") || sidecar.width == sidecar.height;
+  if (usual && saysSize && !sidecar.cellSize && !sidecar.noData) {
     Json json;
     std::error_code error;
     if (isOurs(place, json)) fs::remove(place, error);
@@ -98,6 +105,10 @@ void writeSidecar(const fs::path& path, const HeightSidecar& sidecar, Warnings* 
   if (sidecar.noData) json["no_data"] = *sidecar.noData;
   writeFile(place, json.dump(2) + "\n");
   std::string line = path.string() + ": ";
+  if (!saysSize) {
+    line += "it holds " + std::to_string(sidecar.width) + " x " + std::to_string(sidecar.height) +
+            " points; ";
+  }
   if (!usual) {
     line += "its integers count steps of " + exactNumber(sidecar.step) + " from a height of " +
             exactNumber(sidecar.offset) + "; ";

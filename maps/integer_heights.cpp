@@ -1,7 +1,7 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-// Heights as integers: .pgm, .png, .r16.
+// Heights as integers: .pgm, .png, .r16, .raw.
 
 #include <algorithm>
 #include <bit>
@@ -198,25 +198,32 @@ HeightMap readPngHeights(const HeightFile& file) {
   return map;
 }
 
-HeightMap readR16(const HeightFile& file) {
-  const std::size_t count = file.bytes.size() / 2;
+HeightMap readRaw(const HeightFile& file) {
+  const bool floats = file.sidecar && file.sidecar->floats && lowerExtension(file.name) == ".raw";
+  const std::size_t bytes = floats ? 4 : 2, count = file.bytes.size() / bytes;
   double width = std::floor(std::sqrt(static_cast<double>(count))), height = width;
-  if (file.sidecar && file.sidecar->width > 0) {
+  const bool said = file.sidecar && file.sidecar->width > 0;
+  if (said) {
     width = file.sidecar->width;
     height = file.sidecar->height;
   }
-  if (file.bytes.size() % 2 != 0 || width * height != static_cast<double>(count)) {
+  if (file.bytes.size() % bytes != 0 || width * height != static_cast<double>(count)) {
     file.fail(std::to_string(file.bytes.size()) + " bytes are no " +
-              (file.sidecar ? exactNumber(width) + " x " + exactNumber(height) +
-                                  " integers, as "
-                                  "the .json beside it says"
-                            : "square of 16-bit integers, and no .json beside it says its size"));
+              (said ? exactNumber(width) + " x " + exactNumber(height) +
+                          (floats ? " floats" : " integers") + ", as the .json beside it says"
+                    : "square of 16-bit integers, and no .json beside it says its size: write one "
+                      "with \"kind\": \"exemplar height map\", \"width\" and \"height\""));
   }
   HeightMap map = file.allocate(width, height);
   const auto* data = reinterpret_cast<const unsigned char*>(file.bytes.data());
-  for (std::size_t p = 0; p < count; ++p)
-    map.heights[p] = static_cast<float>(data[2 * p] | data[2 * p + 1] << 8);
+  for (std::size_t p = 0; p < count; ++p) {
+    std::uint32_t bits = 0;
+    for (std::size_t b = 0; b < bytes; ++b) bits |= std::uint32_t{data[bytes * p + b]} << (8 * b);
+    map.heights[p] = floats ? std::bit_cast<float>(bits) : static_cast<float>(bits);
+    if (floats && std::isinf(map.heights[p])) file.fail("holds an infinite height");
+  }
   finish(map, file, kLargest);
+  if (floats) map.steps.reset();
   return map;
 }
 
@@ -251,7 +258,7 @@ void writeIntegers(const std::filesystem::path& path, const HeightMap& map,
   }
   if (ending == ".png") {
     writePng(path, Image16{map.width(), map.height(), channels, std::move(integers)});
-  } else if (ending == ".r16") {
+  } else if (ending == ".r16" || ending == ".raw") {
     writeFile(path, lowByteFirst(integers), progress.part(0.5, 1));
   } else {
     std::string out =

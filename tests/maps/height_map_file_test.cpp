@@ -53,7 +53,8 @@ bool sameHeights(const Grid<float>& a, const Grid<float>& b) {
 }
 
 TEST(HeightMapFile, KnowsItsEndings) {
-  for (const char* name : {"a.png", "a.PNG", "a.pgm", "a.Asc", "a.tif", "a.TIFF", "a.exr", "a.r16"})
+  for (const char* name :
+       {"a.png", "a.PNG", "a.pgm", "a.Asc", "a.tif", "a.TIFF", "a.exr", "a.r16", "a.raw"})
     EXPECT_TRUE(isHeightMapFile(name));
   for (const char* name : {"a.jpg", "a.obj", "a", "png"}) EXPECT_FALSE(isHeightMapFile(name));
 }
@@ -183,7 +184,7 @@ TEST(HeightMapFile, CellsInDegreesBecomeMetersAndAreSaid) {
 }
 
 TEST(HeightMapFile, EqualHeightsStayEqualNumbersThroughEveryPairOfFormats) {
-  const char* const names[] = {"a.asc", "a.tif", "a.exr", "a.png", "a.pgm", "a.r16"};
+  const char* const names[] = {"a.asc", "a.tif", "a.exr", "a.png", "a.pgm", "a.r16", "a.raw"};
   const TemporaryFolder folder;
   for (const bool whole : {false, true}) {
     for (const bool holes : {false, true}) {
@@ -236,7 +237,7 @@ TEST(HeightMapFile, OddFloatsSurviveWhereThereAreFloats) {
     EXPECT_TRUE(sameHeights(readHeightMap(folder / name).heights, map.heights)) << name;
   }
   EXPECT_THAT(inputError([&] { writeHeightMap(folder / "a.obj", map); }),
-              HasSubstr(".png, .pgm or .r16"));
+              HasSubstr(".pgm, .r16 or .raw"));
 }
 
 TEST(HeightMapFile, ASquareOfIntegersNeedsNothingBesideIt) {
@@ -247,6 +248,39 @@ TEST(HeightMapFile, ASquareOfIntegersNeedsNothingBesideIt) {
   EXPECT_EQ(map.at(2, 1), 256 + 5);
   EXPECT_THAT(inputError([&] { readHeightMap(bytes.substr(2), "a.r16", {}); }),
               HasSubstr("no square"));
+}
+
+TEST(HeightMapFile, RawIsOfTheSizeAndTypeThatAreSaid) {
+  const TemporaryFolder folder;
+  const float heights[] = {0.5f, -2, 3, 1e6f, 7, 8};
+  const auto path = folder / "a.raw";
+  writeBytes(path, std::string(reinterpret_cast<const char*>(heights), sizeof heights));
+  const auto say = [&](const std::string& more) {
+    writeBytes(folder / "a.raw.json", R"({"kind": "exemplar height map", )" + more + "}");
+  };
+  say(R"("width": 3, "height": 2, "type": "float32", "cell_size": 5)");
+  const HeightMap map = readHeightMap(path);
+  EXPECT_EQ(valuesOf(map), std::vector<float>(std::begin(heights), std::end(heights)));
+  EXPECT_EQ(map.width(), 3);
+  EXPECT_EQ(map.cellSize, 5);
+  EXPECT_FALSE(map.steps);
+  say(R"("width": 4, "height": 3, "type": "uint16")");
+  EXPECT_EQ(readHeightMap(path).width(), 4);
+  say(R"("width": 4, "height": 2, "type": "float32")");
+  EXPECT_THAT(inputError([&] { readHeightMap(path); }), HasSubstr("24 bytes are no 4 x 2 floats"));
+  say(R"("width": 3, "height": 2, "type": "int8")");
+  EXPECT_THAT(inputError([&] { readHeightMap(path); }), HasSubstr("\"type\" must be"));
+}
+
+TEST(HeightMapFile, WhatHasNoHeaderSaysBesideThatItIsNoSquare) {
+  const TemporaryFolder folder;
+  HeightMap map;
+  map.heights = Grid<float>(5, 3);
+  for (std::size_t p = 0; p < map.heights.count(); ++p) map.heights[p] = static_cast<float>(p);
+  for (const char* name : {"a.r16", "a.raw"}) {
+    writeHeightMap(folder / name, map);
+    EXPECT_EQ(readHeightMap(folder / name).heights, map.heights) << name;
+  }
 }
 
 TEST(HeightMapFile, ReadsTiffsOfEveryKind) {
