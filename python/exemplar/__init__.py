@@ -273,7 +273,7 @@ def transfer(mesh, result, *, textures="auto", blend=1.5, source=False):
 
     textures: auto, coordinates, vertex_colors or drop. blend: voxels over which colors are mixed
     at seams. source: keep where each corner came from."""
-    return _memory(mesh)._transfer(result._core, textures, blend, source)
+    return _core._transfer(_memory(mesh), result._core, textures, blend, source)
 
 
 class World:

@@ -7,6 +7,7 @@ for, progress that never falls, memory that is its own."""
 import json
 import os
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -168,6 +169,38 @@ class Promises(unittest.TestCase):
                     self.assertIn(event["event"], ("start", "progress", "warning", "file", "done", "error"))
                     if event["event"] == "file":
                         self.assertTrue(os.path.isfile(self.path(event["path"])))
+
+    def test_version_names_libraries_and_machine(self):
+        text, for_programs = self.run_command("--version"), self.run_command("--version", "--json")
+        self.assertEqual((text.returncode, for_programs.returncode), (0, 0))
+        said = json.loads(for_programs.stdout)
+        self.assertEqual(text.stdout.split("\n")[0], "exemplar " + said["version"])
+        self.assertEqual(said["protocol"], 1)
+        self.assertGreaterEqual(len(said["libraries"]), 12)
+        for name, version in said["libraries"].items():
+            self.assertIn(name, text.stdout)
+            self.assertIn(version, text.stdout)
+        self.assertIn(said["arithmetic"], text.stdout)
+
+    def test_volumes_may_have_y_up(self):
+        read = ("-r", "16", "--padding", "2,3,4")
+        lines = [("wall.obj", "z.vdb", *read), ("wall.obj", "y.vdb", *read, "--up", "y"),
+                 ("z.vdb", "z_again.vdb"), ("y.vdb", "y_as_z.vdb"), ("y.vdb", "y_again.vdb", "--up", "y"),
+                 ("z.vdb", "stood.vdb", "--up", "y")]
+        held = {}
+        for source, result, *more in lines:
+            done = self.run_command("sdf", source, "-o", result, *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(self.path(result), "rb") as file:
+                held[result] = file.read()
+        # The file says it: read without a word, it is the same volume; with one, too.
+        self.assertEqual(held["y_as_z.vdb"], held["z_again.vdb"])
+        self.assertEqual(held["y_again.vdb"], held["y.vdb"])
+        self.assertNotEqual(held["y.vdb"], held["z.vdb"])
+        # A volume of another program, whose second index is height, is stood up.
+        sizes = [re.search(r"(\d+) x (\d+) x (\d+) samples", self.run_command("info", name).stdout).groups()
+                 for name in ("z.vdb", "stood.vdb")]
+        self.assertEqual((sizes[1][0], sizes[1][2], sizes[1][1]), sizes[0])
 
     def test_memory_is_the_commands_own(self):
         def peak():
