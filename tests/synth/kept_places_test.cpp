@@ -154,7 +154,7 @@ TEST(KeptPlaces, AWallGoesOnAsOneWallWhicheverPartOfItIsKept) {
         EXPECT_EQ(runs(made, axis, 130), 2);
         forEachCell(example.size(), [&](const Vec3i& p) {
           if (!part(p) || p[axis] < 2 || p[axis] >= n - 2) return;
-          // The low one of two ends shows where what is kept has gone; the other is at its end.
+          // The low one of two ends says where what is kept has gone; the other is at its end.
           Vec3i to = p + result.keptOffset;
           const bool bothEnds = part(Vec3i{0, 0, 0}) && p[axis] >= n / 2;
           if (bothEnds && part(example.size() - Vec3i{1, 1, 1})) return;

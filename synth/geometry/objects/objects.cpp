@@ -31,9 +31,6 @@ constexpr int kMostSlices = 128;
 constexpr std::int64_t kMostSamples = 1 << 20;
 /// An object is extended where the joints cost no more than this on the mean.
 constexpr double kDocks = 0.15;
-/// The same where something is kept: joints are sought in a part of the object only, and what is
-/// made otherwise, by voting, has none that cost less.
-constexpr double kDocksBesideKept = 0.25;
 /// How far parts are moved at first, of the object's length, and what it costs that they are not
 /// (`variedPath`); by how much more each time, how often, and how many ways are tried each time.
 constexpr double kMotion = 0.03, kPull = 80, kFarther = 1.2, kHarder = 1.6;
@@ -129,7 +126,7 @@ class Objects {
   /// Whether the joints of a path cost little enough.
   bool docks(int axis) const {
     const SlicePath path = fitted(axis, options_.size[axis]);
-    return !path.source.empty() && path.meanCost <= (options_.kept ? kDocksBesideKept : kDocks);
+    return !path.source.empty() && path.meanCost <= kDocks;
   }
 
   /// Exchanges parts of each copy, on a grid that is small enough.
