@@ -444,7 +444,7 @@ TEST(SynthCommand, WhatIsKeptStaysAsItIs) {
 TEST(SynthCommand, AMixHasTheSharesThatAreAskedForOrSaysSo) {
   const TestFolder folder;
   const auto result = runExemplar("synth " + scene("balls") + kQuick + "--with " + scene("fibers") +
-                                      " --mix 0.3 -o o.vdb --stats s.json",
+                                      " --mix 0.3 --scale 1.5,1,1 -o o.vdb --stats s.json",
                                   folder.path());
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, testing::HasSubstr("of the surface"));
@@ -457,7 +457,7 @@ TEST(SynthCommand, AMixHasTheSharesThatAreAskedForOrSaysSo) {
   writePng(folder / "map.png", Image8{2, 1, 1, {0, 255}});
   const auto painted =
       runExemplar("synth " + scene("balls") + kQuick + "--with " + scene("fibers") +
-                      " --mix-map map.png -o p.vdb --origins from.vdb",
+                      " --mix-map map.png --scale 1.5,1,1 -o p.vdb --origins from.vdb",
                   folder.path());
   ASSERT_EQ(painted.status, 0) << painted.err;
   const Origins origins = readOriginsVdb(folder / "from.vdb");
