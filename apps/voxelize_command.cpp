@@ -57,9 +57,10 @@ Command addVoxelizeCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("voxelize", "Write an example as a grid of labels (cells of materials)");
   command
-      ->add_option("EXAMPLE", options->example,
-                   "a mesh, a scene, a volume, a height map (.asc .tif .exr .pgm .r16 .raw), a picture "
-                   "or a label grid")
+      ->add_option(
+          "EXAMPLE", options->example,
+          "a mesh, a scene, a volume, a height map (.asc .tif .exr .pgm .r16 .raw), a picture "
+          "or a label grid")
       ->required();
   command
       ->add_option(

@@ -41,7 +41,7 @@ struct Run {
 };
 
 /// A picture of heights, 0 at the lowest; without holes, in which nothing can be painted.
-Example pictured(const Example& heights) {
+Example asPicture(const Example& heights) {
   Grid<float> plane = heights.heights().heights;
   fillHoles(plane);
   const HeightRange range = *rangeOf(plane);
@@ -119,7 +119,7 @@ class Comparison {
       case Form::Heights:
         return example_;
       case Form::Map:
-        return pictured(example_);
+        return asPicture(example_);
       case Form::Field: {
         ReadOptions reading = reading_;
         reading.form = Form::Field;
@@ -183,6 +183,8 @@ void compareTerrain(const Source& source, const ReadOptions& reading,
     throw InputError(folder.string() + ": cannot be made a folder; name one that can");
   Comparison comparison(source, reading, options, progress.part(0, 0.02));
   const HeightMap& example = comparison.example().heights();
+  for (const std::string& warning : comparison.example().warnings)
+    warn(options.picture.warnings, warning);
   const auto write = [&](const std::string& name, const auto& writeIt) {
     writeIt(folder / name);
     if (options.wrote) options.wrote(folder / name);

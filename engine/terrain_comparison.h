@@ -29,7 +29,8 @@ struct ComparedTerrain {
 /// folder holds. `terrain` works on the heights, `layered` on a picture of them from the lowest to
 /// the highest; engines on distances on a volume of the example, as `reading` samples it, and are
 /// measured at its resolution, against the example at that resolution. Others refuse it. `picture`
-/// says how large pictures are. Throws `InputError` and `Cancelled`.
+/// says how large pictures are, and gets the warnings of what was read. Throws `InputError` and
+/// `Cancelled`.
 void compareTerrain(const Source& source, const ReadOptions& reading,
                     const ComparisonOptions& options,
                     const std::function<void(const ComparedTerrain&)>& finished = {},

@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "core/file.h"
 #include "maps/height_map_file.h"
@@ -63,6 +65,40 @@ TEST_F(TerrainCommand, KeepsWhatIsWhiteToTheBit) {
     }
   }
   EXPECT_GT(different, 300);
+}
+
+TEST_F(TerrainCommand, ComparesEnginesByHeights) {
+  const auto run = runExemplar(
+      "compare e.asc -o c --seeds 2 --scale 1.5,1.5,1 --size 160x120 --engines "
+      "terrain,terrain:keep-hollows=true,model",
+      folder_.path());
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(readFile(folder_ / "c" / "compare.json"));
+  ASSERT_EQ(json.at("runs").size(), 6u);
+  for (const auto& one : json.at("runs")) {
+    if (one.at("engine") == "model") {
+      EXPECT_EQ(one.at("status"), "refused");
+      EXPECT_THAT(one.at("why").get<std::string>(), HasSubstr("makes no heights"));
+      continue;
+    }
+    ASSERT_EQ(one.at("status"), "complete") << one;
+    const HeightMap made = readHeightMap(folder_ / "c" / one.at("heights").get<std::string>());
+    EXPECT_EQ(made.width(), 96);
+    EXPECT_EQ(made.cellSize, 10);
+    // The same figures as of the file.
+    const auto& terrain = one.at("figures").at("terrain");
+    const double relief = terrain.at("relief");
+    EXPECT_NEAR(relief, rangeOf(made.heights)->relief(), 1e-3 * relief);
+    // Hills between hollows, of which a result has as many.
+    const double flooded = terrain.at("flooded_share"),
+                 wanted = terrain.at("flooded_share_example");
+    EXPECT_GT(wanted, 0.05);
+    if (one.at("engine") == "terrain") {
+      EXPECT_LE(flooded, 2 * wanted);
+    }
+  }
+  for (const char* file : {"example.png", "compare.png", "terrain-1.png", "report.html"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "c" / file)) << file;
 }
 
 TEST_F(TerrainCommand, AMaskLeavesTheBaseWhereItIsBlack) {
