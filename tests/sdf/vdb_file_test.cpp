@@ -16,7 +16,9 @@
 #include <limits>
 #include <string>
 
+#include "core/cells.h"
 #include "core/file.h"
+#include "sdf/resample.h"
 #include "tests/sdf/cancellation.h"
 #include "tests/sdf/shapes.h"
 
@@ -414,6 +416,51 @@ TEST(VdbFile, RefusesOriginsThatAreNone) {
   sources->tree().setValue({5, 0, 0}, 1);
   write();
   EXPECT_THAT(inputError([&] { readOriginsVdb(folder / "bad.vdb"); }), HasSubstr("differ"));
+}
+
+TEST(VdbFile, StandsInFilesWhoseYAxisIsUp) {
+  const TemporaryFolder folder;
+  const DistanceField field = torusField(0.18, {20, 16, 9});
+  const auto whereIn = [&](const char* name, const Vec3d& ijk) {
+    openvdb::io::File file((folder / name).string());
+    file.open();
+    const openvdb::Vec3d p =
+        file.readGrid("surface")->transform().indexToWorld(openvdb::Vec3d(ijk.x, ijk.y, ijk.z));
+    return Vec3d{p[0], p[1], p[2]};
+  };
+  writeVdb(folder / "y.vdb", field, {.yUp = true});
+  const Turn turn(0.4, {1, 2, 3});
+  writeVdb(folder / "turned.vdb", field, {.turn = turn, .yUp = true});
+  for (const Vec3d& ijk : {Vec3d{0, 0, 0}, Vec3d{7, 3, 5}}) {
+    const Vec3d straight = field.position(ijk), turned = turn(straight);
+    EXPECT_LT(length(whereIn("y.vdb", ijk) - Vec3d{straight.x, straight.z, -straight.y}), 1e-9);
+    EXPECT_LT(length(whereIn("turned.vdb", ijk) - Vec3d{turned.x, turned.z, -turned.y}), 1e-9);
+  }
+  // The file says it, whether or not it is asked for.
+  for (const bool said : {false, true}) {
+    const DistanceField read = readVdb(folder / "y.vdb", {.yUp = said});
+    EXPECT_EQ(read.values, field.values);
+    EXPECT_LT(length(read.origin - field.origin), 1e-9);
+    Turn found;
+    const DistanceField back = readVdb(folder / "turned.vdb", {.turn = &found, .yUp = said});
+    EXPECT_EQ(back.values, field.values);
+    EXPECT_LT(length(found(back.position({7, 3, 5})) - turn(field.position({7, 3, 5}))), 1e-6);
+  }
+}
+
+TEST(VdbFile, OfAProgramWhoseYAxisIsUpIsStoodUp) {
+  const TemporaryFolder folder;
+  // Samples whose index j is height, as such programs make them: no turned transform, and nothing
+  // says it.
+  const DistanceField lying = torusField(0.18, {20, 9, 16});
+  writeVdb(folder / "theirs.vdb", lying);
+  const DistanceField stood = readVdb(folder / "theirs.vdb", {.yUp = true});
+  ASSERT_EQ(stood.size(), (Vec3i{20, 16, 9}));
+  forEachCell(lying.size(), [&](const Vec3i& p) {
+    const Vec3d at = lying.position(cast<double>(p)), up{at.x, -at.z, at.y};
+    EXPECT_NEAR(sampleTrilinear(stood, up), lying.values[p], 1e-5);
+  });
+  EXPECT_EQ(readVdb(folder / "theirs.vdb").values, lying.values);
 }
 
 TEST(VdbFile, KeepsHowAFieldLiesTurned) {
