@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "core/parallel.h"
+#include "measure/repeated_share.h"
 
 namespace exemplar {
 namespace {
@@ -298,18 +298,7 @@ std::optional<double> repeatedPeaks(const Grid<float>& heights, const Progress& 
     Surroundings surroundings(detail, peak.at);
     if (surroundings.whole()) peaks.push_back(std::move(surroundings));
   }
-  if (peaks.size() < 2) return std::nullopt;
-  std::vector<std::atomic<std::uint8_t>> again(peaks.size());
-  parallelFor(0, peaks.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t a = first; a < last; ++a) {
-      progress.check();
-      for (std::size_t b = a + 1; b < peaks.size(); ++b)
-        if (peaks[a].same(peaks[b])) again[a] = again[b] = 1;
-    }
-  });
-  std::size_t repeated = 0;
-  for (const auto& flag : again) repeated += flag;
-  return static_cast<double>(repeated) / static_cast<double>(peaks.size());
+  return repeatedShare<Surroundings>(peaks, progress);
 }
 
 }  // namespace exemplar

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -13,6 +12,7 @@
 
 #include "core/parallel.h"
 #include "maps/halved.h"
+#include "measure/repeated_share.h"
 #include "measure/terrain_copies.h"
 
 namespace exemplar {
@@ -204,18 +204,7 @@ TerrainShapes::TerrainShapes(TerrainShapes&&) noexcept = default;
 std::size_t TerrainShapes::count() const { return shapes_.size(); }
 
 std::optional<double> TerrainShapes::repeated(const Progress& progress) const {
-  if (shapes_.size() < 2) return std::nullopt;
-  std::vector<std::atomic<std::uint8_t>> again(shapes_.size());
-  parallelFor(0, shapes_.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t a = first; a < last; ++a) {
-      progress.check();
-      for (std::size_t b = a + 1; b < shapes_.size(); ++b)
-        if (shapes_[a].same(shapes_[b])) again[a] = again[b] = 1;
-    }
-  });
-  std::size_t count = 0;
-  for (const auto& flag : again) count += flag;
-  return static_cast<double>(count) / static_cast<double>(shapes_.size());
+  return repeatedShare<Surroundings>(shapes_, progress);
 }
 
 std::optional<double> TerrainShapes::foundIn(const TerrainShapes& others,

@@ -18,6 +18,7 @@ import unittest
 import numpy as np
 
 import exemplar
+from files import WithFiles
 
 COMMAND = os.environ["EXEMPLAR"]
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -44,16 +45,6 @@ def blocks():
 
 def checkered():
     return exemplar.LabelGrid(np.indices((4, 4, 1)).sum(0) % 2 + 1, names=["", "black", "white"])
-
-
-class WithFiles(unittest.TestCase):
-    def setUp(self):
-        held = tempfile.TemporaryDirectory()
-        self.addCleanup(held.cleanup)
-        self.folder = held.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
 
 class Synthesis(WithFiles):

@@ -7,7 +7,6 @@ against another way to the same."""
 import os
 import signal
 import sys
-import tempfile
 import threading
 import time
 import unittest
@@ -15,6 +14,7 @@ import unittest
 import numpy as np
 
 import exemplar
+from files import WithFiles
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
@@ -44,16 +44,6 @@ def tower():
                          np.concatenate([faces + 8 * n for n in range(3)]),
                          face_materials=np.repeat([0, 1, 0], 12),
                          materials=[{"name": "stone"}, {"name": "roof"}])
-
-
-class WithFiles(unittest.TestCase):
-    def setUp(self):
-        held = tempfile.TemporaryDirectory()
-        self.addCleanup(held.cleanup)
-        self.folder = held.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
 
 class Distances(WithFiles):
