@@ -164,7 +164,7 @@ Command addCompareCommand(CLI::App& app) {
       ->add_option(
           "-o,--output", options->folder,
           "the folder for meshes, pictures, compare.json and report.html; what it holds of "
-          "the same comparison is not made again")
+          "the same comparison is not made again (but of height maps)")
       ->required();
   command->add_option("--seeds", options->seeds, "how many seeds each engine gets")
       ->check(CLI::Range(1, 1000))
