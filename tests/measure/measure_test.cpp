@@ -258,8 +258,8 @@ TEST(Figures, HaveNamesOfTheirOwn) {
     const bool coarse = f.key.starts_with("multiscale_") && f.key != "multiscale_1";
     EXPECT_EQ(std::holds_alternative<std::monostate>(f.value), coarse) << f.key;
   }
-  EXPECT_EQ(groups, (std::vector<std::string>{"likeness", "wholeness", "novelty", "frontier",
-                                              "seams", "mesh", "collapse", "doubts"}));
+  EXPECT_EQ(groups, (std::vector<std::string>{"likeness", "wholeness", "landmarks", "novelty",
+                                              "frontier", "seams", "mesh", "collapse", "doubts"}));
   for (const char* key : {"likeness.lp_dense", "likeness.coverage", "likeness.fpd",
                           "likeness.occupancy_ratio", "likeness.surface_ratio"})
     EXPECT_TRUE(names.contains(key)) << key;
