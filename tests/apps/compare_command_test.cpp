@@ -31,11 +31,23 @@ class CompareCommand : public testing::Test {
         pgm += std::to_string(40 + 5 * std::abs(x % 8 - 4) + 4 * std::abs(y % 8 - 3)) + "\n";
     writeFile(folder_ / "hills.pgm", pgm);
   }
-  CommandResult compare(const std::string& more) const {
-    return runExemplar(
-        "compare hills.pgm -o made --cell-size 1 --height-scale 0.2 --size 120x90 --samples 1 " +
-            more + (more.find("--resolution") == std::string::npos ? " --resolution 32" : ""),
-        folder_.path());
+  /// The hills as a volume: height maps are compared as terrain.
+  std::string hills(int resolution) const {
+    const std::string name = "hills" + std::to_string(resolution) + ".vdb";
+    if (!fs::exists(folder_ / name)) {
+      const CommandResult run =
+          runExemplar("sdf hills.pgm --cell-size 1 --height-scale 0.2 -q -o " + name +
+                          " --resolution " + std::to_string(resolution),
+                      folder_.path());
+      EXPECT_EQ(run.status, 0) << run.err;
+    }
+    return name;
+  }
+  CommandResult compare(const std::string& more, int resolution = 32) const {
+    return runExemplar("compare " + hills(resolution) + " -o made --size 120x90 --samples 1 " +
+                           (more.find("--scale") == std::string::npos ? "--scale 2,2,1 " : "") +
+                           more,
+                       folder_.path());
   }
   fs::path file(const std::string& name) const { return folder_ / "made" / name; }
   json read(const std::string& name) const { return json::parse(readFile(file(name))); }
@@ -79,7 +91,7 @@ TEST_F(CompareCommand, SaysHowFarSeedsAreApart) {
 
 TEST_F(CompareCommand, SaysWhyAnEngineMadeNothing) {
   // One block along x: the example does not show what could be beside it.
-  ASSERT_EQ(compare("--seeds 1 --engines model --resolution 16").status, 0);
+  ASSERT_EQ(compare("--seeds 1 --engines model", 16).status, 0);
   const json run = read("compare.json").at("runs")[0];
   EXPECT_NE(run.at("status"), "complete");
   EXPECT_FALSE(run.at("why").get<std::string>().empty());
@@ -87,7 +99,7 @@ TEST_F(CompareCommand, SaysWhyAnEngineMadeNothing) {
 }
 
 TEST_F(CompareCommand, TakesExamplesTooSmallToMeasure) {
-  const CommandResult outcome = compare("--seeds 1 --engines optimize,blocks --resolution 6");
+  const CommandResult outcome = compare("--seeds 1 --engines optimize,blocks", 6);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json runs = read("compare.json").at("runs");
   ASSERT_EQ(runs[0].at("status"), "complete");
@@ -100,19 +112,17 @@ TEST_F(CompareCommand, TakesExamplesTooSmallToMeasure) {
 
 // Such names are rare and legal.
 TEST_F(CompareCommand, TakesAnExampleWhoseNameIsNotUtf8) {
-  fs::copy_file(folder_ / "hills.pgm", folder_ / "we\xffird.pgm");
+  fs::copy_file(folder_ / hills(8), folder_ / "we\xffird.vdb");
   const CommandResult outcome = runExemplar(
-      "compare we\xffird.pgm -o made --seeds 1 --engines blocks:block=4 --resolution 8 --size "
-      "60x40 "
-      "--samples 1",
+      "compare we\xffird.vdb -o made --seeds 1 --engines blocks:block=4 --size 60x40 --samples 1",
       folder_.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(read("compare.json").dump(), HasSubstr("we\xef\xbf\xbdird.pgm"));
+  EXPECT_THAT(read("compare.json").dump(), HasSubstr("we\xef\xbf\xbdird.vdb"));
 }
 
 TEST_F(CompareCommand, MakesADamagedRunAgain) {
-  const std::string once = "--seeds 1 --engines blocks:block=4 --resolution 8";
-  ASSERT_EQ(compare(once).status, 0);
+  const std::string once = "--seeds 1 --engines blocks:block=4";
+  ASSERT_EQ(compare(once, 8).status, 0);
   const fs::path run = file("blocks-block-4-0.json");
   const std::string whole = readFile(run);
   std::string numbers = whole;
@@ -120,7 +130,7 @@ TEST_F(CompareCommand, MakesADamagedRunAgain) {
   for (const std::string& damaged :
        {std::string("{"), std::string("[3]"), whole.substr(0, whole.size() / 2), numbers}) {
     writeFile(run, damaged);
-    const CommandResult outcome = compare(once);
+    const CommandResult outcome = compare(once, 8);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(json::parse(readFile(run)).at("status"), "complete");
   }
@@ -128,7 +138,7 @@ TEST_F(CompareCommand, MakesADamagedRunAgain) {
 
 TEST_F(CompareCommand, SweepsOverSettings) {
   const CommandResult outcome =
-      compare("--seeds 1 --resolution 24 --engines blocks:block=8,blocks:block=4:levels=2");
+      compare("--seeds 1 --engines blocks:block=8,blocks:block=4:levels=2", 24);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json runs = read("compare.json").at("runs");
   ASSERT_EQ(runs.size(), 2u);
@@ -223,7 +233,8 @@ TEST_F(CompareCommand, RefusesWhatItCannotDo) {
   refused(compare("--engines best"), "--engines best: --engine best: expected geometry");
   refused(compare("--engines blocks:seed=3"), "is the same for all engines");
   refused(compare("--scale 1,0,1"), "--scale 1,0,1");
-  refused(runExemplar("compare hills.pgm -o file", folder_.path()), "cannot be made a folder");
+  refused(runExemplar("compare " + hills(32) + " -o file", folder_.path()),
+          "cannot be made a folder");
   refused(runExemplar("compare none.obj -o made", folder_.path()), "none.obj: no such file");
 }
 

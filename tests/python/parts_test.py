@@ -407,7 +407,8 @@ class Stopping(unittest.TestCase):
             "health": lambda: [mesh.health() for _ in range(1000)],
             "smooth": lambda: mesh.smooth(iterations=10000),
             "decimate": lambda: [mesh.decimate(triangles=100) for _ in range(100)],
-            "redistance": lambda: exemplar.redistance(exemplar.Field(big), half_width=64),
+            "redistance": lambda: [exemplar.redistance(
+                exemplar.Field(np.tile(stones().values, (3, 3, 3))), half_width=64) for _ in range(9)],
             "index": lambda: exemplar.BlockIndex(big, 8),
             "neighbors": lambda: exemplar.nearest_neighbor_field(big, big[:100, :100, :100] + 0.1),
             "render": lambda: exemplar.render(mesh, size=(4000, 4000), samples=512),
