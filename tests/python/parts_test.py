@@ -407,11 +407,13 @@ class Stopping(unittest.TestCase):
             "health": lambda: [mesh.health() for _ in range(1000)],
             "smooth": lambda: mesh.smooth(iterations=10000),
             "decimate": lambda: [mesh.decimate(triangles=100) for _ in range(100)],
+            # Nor is anything heard while a surface is put into a tree.
             "redistance": lambda: [exemplar.redistance(
                 exemplar.Field(np.tile(stones().values, (3, 3, 3))), half_width=64) for _ in range(9)],
             "index": lambda: exemplar.BlockIndex(big, 8),
             "neighbors": lambda: exemplar.nearest_neighbor_field(big, big[:100, :100, :100] + 0.1),
-            "render": lambda: exemplar.render(mesh, size=(4000, 4000), samples=512),
+            # Embree hears nothing while it builds its tree: few triangles, many rays.
+            "render": lambda: exemplar.render(stones().to_mesh(), size=(1500, 1500), samples=4096),
             "labels": lambda: exemplar.mesh_to_labels(mesh, resolution=300),
             "measure": lambda: [exemplar.measure(example, stones(3)) for _ in range(1000)],
         }

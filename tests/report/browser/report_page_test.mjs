@@ -52,9 +52,10 @@ for (let y = 0; y < 32; ++y) {
   for (let x = 0; x < 32; ++x) pgm += `${40 + 5 * Math.abs((x % 8) - 4) + 4 * Math.abs((y % 8) - 3)}\n`;
 }
 // A name that would be markup, were it not escaped.
-const example = 'hills <b> & "x\'.pgm';
-writeFileSync(example, pgm);
-const small = ['--cell-size', '1', '--height-scale', '0.2', '--size', '320x240', '--samples', '16', '-q'];
+const example = 'hills <b> & "x\'.vdb';
+writeFileSync('hills.pgm', pgm);
+run('sdf', 'hills.pgm', '-o', example, '--cell-size', '1', '--height-scale', '0.2', '-q');
+const small = ['--size', '320x240', '--samples', '16', '-q'];
 run('compare', example, '-o', 'made', '--seeds', '2', '--engines', 'blocks,geometry', '--scale', '1.5,1,1', ...small);
 const comparison = JSON.parse(readFileSync('made/compare.json', 'utf8'));
 const url = (path) => `file://${encodeURI(join(folder, path))}`;
