@@ -116,20 +116,6 @@ class Finder {
   double limit_ = 0;
 };
 
-/// Means over 3 x 3 cells; NaN at the border.
-Grid<float> smoothed(const Grid<float>& values) {
-  Grid<float> result(values.width(), values.height(), std::numeric_limits<float>::quiet_NaN());
-  for (int y = 1; y + 1 < values.height(); ++y) {
-    for (int x = 1; x + 1 < values.width(); ++x) {
-      float sum = 0;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) sum += values(x + dx, y + dy);
-      result(x, y) = sum / 9;
-    }
-  }
-  return result;
-}
-
 /// Scales to a length of 1 with a mean of 0; false where all are equal.
 bool normalize(std::vector<float>& values) {
   double mean = 0;
@@ -196,6 +182,22 @@ class Surroundings {
 };
 
 }  // namespace
+
+Grid<float> smoothed3x3(const Grid<float>& values) {
+  Grid<float> result(values.width(), values.height(), std::numeric_limits<float>::quiet_NaN());
+  parallelFor(1, static_cast<std::size_t>(std::max(1, values.height() - 1)), 32,
+              [&](std::size_t first, std::size_t last) {
+                for (auto y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
+                  for (int x = 1; x + 1 < values.width(); ++x) {
+                    float sum = 0;
+                    for (int dy = -1; dy <= 1; ++dy)
+                      for (int dx = -1; dx <= 1; ++dx) sum += values(x + dx, y + dy);
+                    result(x, y) = sum / 9;
+                  }
+                }
+              });
+  return result;
+}
 
 Grid<float> laplacian(const Grid<float>& heights) {
   Grid<float> result(heights.width(), heights.height(), std::numeric_limits<float>::quiet_NaN());
@@ -292,7 +294,7 @@ std::vector<Peak> prominentPeaks(const Grid<float>& heights, std::size_t most) {
 }
 
 std::optional<double> repeatedPeaks(const Grid<float>& heights, const Progress& progress) {
-  const Grid<float> detail = smoothed(laplacian(heights));
+  const Grid<float> detail = smoothed3x3(laplacian(heights));
   std::vector<Surroundings> peaks;
   for (const Peak& peak : prominentPeaks(heights, kPeaks)) {
     Surroundings surroundings(detail, peak.at);

@@ -16,6 +16,8 @@ namespace exemplar {
 
 /// h(east) + h(west) + h(north) + h(south) - 4 h; NaN at the border and where one of them is.
 Grid<float> laplacian(const Grid<float>& heights);
+/// Means over 3 x 3 cells; NaN at the border and where one of them is.
+Grid<float> smoothed3x3(const Grid<float>& values);
 
 /// Of windows of 24 x 24 cells of the result, up to 150 on an even lattice, the share that occurs
 /// in the example: somewhere in it, in one of eight orientations, a window of the same size has a

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 
 #include "core/parallel.h"
@@ -26,22 +25,6 @@ constexpr int kSmoothed = 2;  ///< times by means of 3 x 3
 constexpr float kSame = 0.85f;
 /// The least side of a map on the resolution of its layout.
 constexpr int kLayoutSide = 40;
-
-Grid<float> smoothedOnce(const Grid<float>& values) {
-  Grid<float> result(values.width(), values.height(), std::numeric_limits<float>::quiet_NaN());
-  parallelFor(1, static_cast<std::size_t>(std::max(1, values.height() - 1)), 32,
-              [&](std::size_t first, std::size_t last) {
-                for (auto y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
-                  for (int x = 1; x + 1 < values.width(); ++x) {
-                    float sum = 0;
-                    for (int dy = -1; dy <= 1; ++dy)
-                      for (int dx = -1; dx <= 1; ++dx) sum += values(x + dx, y + dy);
-                    result(x, y) = sum / 9;
-                  }
-                }
-              });
-  return result;
-}
 
 struct Place {
   double x, y;
@@ -191,7 +174,7 @@ class TerrainShapes::Surroundings {
 
 TerrainShapes::TerrainShapes(const Grid<float>& heights, std::size_t most) {
   Grid<float> smooth = heights;
-  for (int n = 0; n < kSmoothed; ++n) smooth = smoothedOnce(smooth);
+  for (int n = 0; n < kSmoothed; ++n) smooth = smoothed3x3(smooth);
   const Grid<float> detail = laplacian(smooth);
   for (const Candidate& candidate : extrema(detail, most)) {
     const Surroundings shape(detail, refined(detail, candidate.at));

@@ -18,7 +18,8 @@ namespace exemplar::test {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "exemplar_XXXXXX").string();
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "exemplar_").string() + std::string(6, 'X');
     if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
     path_ = pattern;
   }
