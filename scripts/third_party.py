@@ -44,16 +44,13 @@ def output(*command):
 
 
 def linked_packages(program):
-    packages = set()
+    names = []
     for path in re.findall(r"=> (/\S+)", output("ldd", program)):
         # Debian 12 has /lib in /usr/lib; packages name either.
         real = os.path.realpath(path)
-        for name in (real, real.removeprefix("/usr"), path):
-            owner = output("dpkg-query", "-S", name).split(":")[0]
-            if owner:
-                packages.add(owner)
-                break
-    return packages
+        names += [real, real.removeprefix("/usr"), path]
+    # One line for each that is known: PACKAGE:ARCHITECTURE: NAME.
+    return {line.split(":")[0] for line in output("dpkg-query", "-S", *names).splitlines()}
 
 
 def licenses_of(package):

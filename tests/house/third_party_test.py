@@ -62,11 +62,12 @@ def known_license(text):
 
 
 class ThirdParty(unittest.TestCase):
-    def setUp(self):
+    @classmethod
+    def setUpClass(cls):
         held = tempfile.TemporaryDirectory()
-        self.addCleanup(held.cleanup)
-        self.folder = held.name
-        subprocess.run([sys.executable, SCRIPT, PROGRAM, self.folder], check=True)
+        cls.addClassCleanup(held.cleanup)
+        cls.folder = held.name
+        subprocess.run([sys.executable, SCRIPT, PROGRAM, cls.folder], check=True)
 
     def read(self, name):
         with open(os.path.join(self.folder, name), encoding="utf-8") as file:
