@@ -75,6 +75,11 @@ enum Name : std::uint32_t {
   kMetalPlaces = 0x3e71,
   kMetalShapes = 0x3e72,
   kMetalRoughness = 0x3e73,
+  kBricks = 0xb71c,
+  kScales = 0x5ca1,
+  kBarkPlaces = 0xba41,
+  kBarkShapes = 0xba42,
+  kBarkNoise = 0xba43,
 };
 
 }  // namespace exemplar::stream

@@ -113,6 +113,17 @@ TriangleMesh makeBox(const Box3d& box) {
   return mesh;
 }
 
+TriangleMesh makeRoundedBox(const Box3d& box, double radius, int frequency) {
+  const Vec3d center = 0.5 * (box.min + box.max), half = 0.5 * box.size();
+  assert(radius > 0 && radius <= std::min({half.x, half.y, half.z}) && frequency % 2 == 0);
+  // An eighth of a sphere in each corner; what spans two of them is an edge, four of them a side.
+  TriangleMesh mesh = makeSphere({}, radius, frequency);
+  for (Vec3d& p : mesh.positions)
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] += center[axis] + std::copysign(half[axis] - radius, p[axis]);
+  return mesh;
+}
+
 TriangleMesh makeTorus(const Vec3d& center, const Vec3d& axis, double ringRadius, double wireRadius,
                        int ringSegments, int wireSegments) {
   assert(wireRadius > 0 && wireRadius < ringRadius && ringSegments >= 3 && wireSegments >= 3);

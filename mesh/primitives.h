@@ -22,6 +22,10 @@ TriangleMesh makeSphere(const Vec3d& center, double radius, int frequency = 8);
 /// An axis-aligned box: 12 triangles, some without area where `box` is flat. `box` is not empty.
 TriangleMesh makeBox(const Box3d& box);
 
+/// A box with its edges and corners rounded by `radius`, which is above 0 and at most half of its
+/// shortest side; `frequency` as of a sphere, even, so that the sides lie where those of `box` do.
+TriangleMesh makeRoundedBox(const Box3d& box, double radius, int frequency = 8);
+
 /// A torus around `axis` (any length but 0). `ringRadius`: from the center to the middle of the
 /// wire; `wireRadius`: of the wire, less than `ringRadius`. Segments >= 3 along the ring and around
 /// the wire; 2 ringSegments wireSegments triangles.

@@ -196,6 +196,42 @@ const std::map<std::string, Reader>& readers() {
          file.requireNothingElse();
          return makeGrass(p, extent, seed, progress);
        }},
+      {"bricks",
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
+         BricksProcess p;
+         p.columns = file.integer("columns", p.columns, 1, 64);
+         p.courses = 2 * file.integer("course_pairs", p.courses / 2, 1, 64);
+         p.length = file.number("length", p.length, 2, 512);
+         p.height = file.number("height", p.height, p.length / 16, p.length);
+         p.joint = file.number("joint", p.joint, 0.1 * p.height, 0.5 * p.height);
+         p.relief = file.number("relief", p.relief, 0.05 * p.height, 2 * p.height);
+         p.jitter = file.number("jitter", p.jitter, 0, 0.1);
+         file.requireNothingElse();
+         return makeBricks(p, extent, seed, progress);
+       }},
+      {"scales",
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
+         ScalesProcess p;
+         p.columns = file.integer("columns", p.columns, 1, 64);
+         p.rows = 2 * file.integer("row_pairs", p.rows / 2, 1, 64);
+         p.width = file.number("width", p.width, 2, 512);
+         p.length = file.number("length", p.length, 0.5 * p.width, 1.5 * p.width);
+         p.lift = file.number("lift", p.lift, 0.1, 0.5);
+         p.jitter = file.number("jitter", p.jitter, 0, 0.1);
+         file.requireNothingElse();
+         return makeScales(p, extent, seed, progress);
+       }},
+      {"bark",
+       [](SceneFile& file, const Vec3d& extent, std::uint64_t seed, const Progress& progress) {
+         BarkProcess p;
+         p.side = file.number("side", p.side, 8, 512);
+         p.plate = file.number("plate", p.plate, p.side / 32, p.side / 2);
+         p.grain = file.number("grain", p.grain, 1, 6);
+         p.relief = file.number("relief", p.relief, 0.1, p.side);
+         p.depth = file.number("depth", p.depth, 0.5, p.side);
+         file.requireNothingElse();
+         return makeBark(p, extent, seed, progress);
+       }},
   };
   return all;
 }

@@ -38,8 +38,8 @@ struct SceneOptions {
   Vec3d extent{1, 1, 1};
 };
 
-/// Makes a scene from its file. Kinds: chainmail, fibers, metal, grid, balls, terrain, grass, and,
-/// made of model pieces, castle, city, canyon, cluster, paths, gears, forest, library (each file
+/// Makes a scene from its file. Kinds: chainmail, fibers, metal, grid, balls, terrain, grass,
+/// bricks, scales, bark, and, made of model pieces, castle, city, canyon, cluster, paths, gears, forest, library (each file
 /// states its parameters, all with units and ranges; an unknown key is an error). The same
 /// file and options give the same scene, to the byte. Throws `InputError` naming file, line and
 /// key, and `Cancelled`.

@@ -30,19 +30,9 @@ ProcessSample makeMetal(const MetalProcess& process, const Vec3d& extent, std::u
       const Vec3d p{c * cell, r * cell, 0};
       // Each grain a tilted plane about its own level; the nearest grain counts, with a groove
       // where the two nearest are as near as each other.
-      double nearest = 1e30, second = 1e30;
-      std::size_t grain = 0;
-      for (std::size_t n = 0; n < grains.size(); ++n) {
-        const double stretch = shapes.uniform(0.75, 1.35, n, 0);
-        const double d = length(grains[n] - p) * stretch;
-        if (d < nearest) {
-          second = nearest;
-          nearest = d;
-          grain = n;
-        } else {
-          second = std::min(second, d);
-        }
-      }
+      const auto [grain, nearest, second] = twoNearest(grains.size(), [&](std::size_t n) {
+        return length(grains[n] - p) * shapes.uniform(0.75, 1.35, n, 0);
+      });
       const Vec3d d = p - grains[grain];
       const double level = shapes.uniform(0.25, 1, grain, 1);
       const double slope = shapes.uniform(-0.045, 0.045, grain, 2) * d.x +

@@ -3,7 +3,10 @@
 
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/random.h"
@@ -23,5 +26,29 @@ double fractalNoise(const Random& random, double x, double y, int octaves, doubl
 /// height), z 0.
 std::vector<Vec3d> scatteredPoints(const Random& random, double width, double height,
                                    double distance);
+
+/// The nearest of several places, and how far it and the next one are (Worley: "A cellular texture
+/// basis function", SIGGRAPH 1996).
+struct TwoNearest {
+  std::size_t which = 0;
+  double first = std::numeric_limits<double>::max(), second = first;
+};
+
+/// `distance(n)` is that of place n, of `count`.
+template <typename Distance>
+TwoNearest twoNearest(std::size_t count, const Distance& distance) {
+  TwoNearest found;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double d = distance(n);
+    if (d < found.first) {
+      found.second = found.first;
+      found.first = d;
+      found.which = n;
+    } else {
+      found.second = std::min(found.second, d);
+    }
+  }
+  return found;
+}
 
 }  // namespace exemplar

@@ -104,4 +104,40 @@ struct GrassProcess {
 ProcessSample makeGrass(const GrassProcess& process, const Vec3d& extent, std::uint64_t seed,
                         const Progress& progress = {});
 
+/// A wall on its back, in running bond: bricks with rounded edges, each a little out of place, in a
+/// bed of mortar. y is up the wall, z toward whoever looks at it.
+struct BricksProcess {
+  int columns = 3, courses = 8;  ///< bricks in the window; 1..64, courses even
+  double length = 20;            ///< from joint to joint along a course
+  double height = 8;             ///< from joint to joint up the wall, at most `length`
+  double joint = 1.8;            ///< width of the mortar between bricks, 0.1..0.5 height
+  double relief = 3;             ///< of bricks above the mortar
+  double jitter = 0.04;          ///< of places, sizes and turns, share of height, 0..0.1
+};
+ProcessSample makeBricks(const BricksProcess& process, const Vec3d& extent, std::uint64_t seed,
+                         const Progress& progress = {});
+
+/// Scales of a reptile: keeled shields in staggered rows, each on top of two of the row above it.
+/// Their tips point along -y.
+struct ScalesProcess {
+  int columns = 5, rows = 6;  ///< scales in the window; 1..64, rows even
+  double width = 12.8;        ///< distance of scales in a row
+  double length = 10.4;       ///< distance of rows, 0.5..1.5 width
+  double lift = 0.34;         ///< of tips from the skin, radians, 0.1..0.5
+  double jitter = 0.05;       ///< of places, sizes and turns, share of width, 0..0.1
+};
+ProcessSample makeScales(const ScalesProcess& process, const Vec3d& extent, std::uint64_t seed,
+                         const Progress& progress = {});
+
+/// Bark of an old tree: plates, longer than wide, with furrows between them that run along y.
+struct BarkProcess {
+  double side = 64;    ///< of the window
+  double plate = 9;    ///< distance of furrows across; 2..side/2
+  double grain = 3.2;  ///< length of plates, of their width; 1..6
+  double relief = 7;   ///< from the deepest furrow to the highest plate, about
+  double depth = 4;    ///< of the wood below the furrows
+};
+ProcessSample makeBark(const BarkProcess& process, const Vec3d& extent, std::uint64_t seed,
+                       const Progress& progress = {});
+
 }  // namespace exemplar

@@ -110,7 +110,8 @@ TEST(MeshProgress, HealthAndCrossingsAreHeard) {
 }
 
 TEST(MeshProgress, ScenesAreHeard) {
-  for (const char* kind : {"chainmail", "balls", "grid", "fibers", "metal", "terrain", "grass"}) {
+  for (const char* kind : {"chainmail", "balls", "grid", "fibers", "metal", "terrain", "grass",
+                           "bricks", "scales", "bark"}) {
     const std::string file = std::string("kind = \"") + kind + "\"\n";
     expectHeard(kind, 5, [&](const Progress& progress) {
       readScene(file, std::string(kind) + ".toml", {}, progress);

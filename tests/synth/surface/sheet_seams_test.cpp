@@ -12,41 +12,46 @@
 namespace exemplar::surface {
 namespace {
 
-/// Metal, or chainmail in step, placed on a ball.
+/// An example placed on a ball of radius 1, a sample of it `sample` long.
 struct Placed {
   DistanceField example;
   Slab slab{example};
   Lattice lattice;
   SlabSymmetry symmetry;
-  Sheet sheet = makeSheet(makeSphere({0, 0, 0}, 1, 10), {.edge = 0.09});
+  Sheet sheet;
   Coordinates coordinates;
   LocalMapper mapper;
   Placements placements;
 
-  explicit Placed(DistanceField field, std::uint64_t seed = 0)
+  Placed(DistanceField field, double sample)
       : example(std::move(field)),
         lattice(latticeOf(findRepetition(example.values).basis)),
         symmetry(findSymmetry(slab, lattice)),
-        coordinates(integrate(sheet, smoothestField(sheet, symmetry.turns), lattice, 0.06)),
-        mapper(sheet, coordinates, {.sample = 0.06, .radius = 18, .leastRadius = 12}),
-        placements(place(mapper, slab, {.seed = seed, .symmetry = symmetry})) {}
+        sheet(makeSheet(makeSphere({0, 0, 0}, 1, 10), {.edge = 1.5 * sample})),
+        coordinates(integrate(sheet, smoothestField(sheet, symmetry.turns), lattice, sample)),
+        mapper(sheet, coordinates, {.sample = sample, .radius = 12, .leastRadius = 10}),
+        placements(place(mapper, slab, {.symmetry = symmetry})) {}
+  // The mapper refers to the sheet beside it.
+  Placed(const Placed&) = delete;
 };
 
+Placed placedMetal() { return {littleMetal(), 0.09}; }
+Placed placedChainmail() { return {littleChainmail(), 0.07}; }
+
 TEST(Placements, CoverEveryNodeBySomeoneWhoIsThere) {
-  for (const DistanceField& example : {metal(), chainmail()}) {
-    const Placed placed(example);
+  for (const Placed& placed : {placedMetal(), placedChainmail()}) {
     std::size_t possible = 0;
     for (std::uint32_t v = 0; v < placed.sheet.positions.size(); ++v) {
       const Placements::Membership* m = placed.placements.find(v, placed.placements.owner[v]);
       ASSERT_TRUE(m);
       possible += m->possible;
     }
-    EXPECT_GT(possible, placed.sheet.positions.size() * 98 / 100);
+    EXPECT_GT(possible, placed.sheet.positions.size() * 97 / 100);
   }
 }
 
 TEST(Placements, WhatRepeatsStaysInStep) {
-  const Placed placed(chainmail());
+  const Placed placed = placedChainmail();
   std::vector<double> all;
   for (const Placement& p : placed.placements.all)
     if (p.met) all.push_back(p.disagreement);
@@ -57,8 +62,8 @@ TEST(Placements, WhatRepeatsStaysInStep) {
 }
 
 TEST(SheetSeams, CutsNeverCostMoreAndOwnersStayWhereTheyCan) {
-  for (const DistanceField& example : {metal(), chainmail()}) {
-    Placed placed(example);
+  for (const auto make : {placedMetal, placedChainmail}) {
+    Placed placed = make();
     const std::vector<std::uint32_t> before = placed.placements.owner;
     std::int64_t last = -1;
     for (int pass = 0; pass < 3; ++pass) {
@@ -84,7 +89,7 @@ TEST(SheetSeams, CutsNeverCostMoreAndOwnersStayWhereTheyCan) {
 
 TEST(SheetSeams, AreTheSameAtAnyNumberOfThreads) {
   testing::expectSameAtAnyThreads([] {
-    Placed placed(metal());
+    Placed placed = placedMetal();
     cutSeams(placed.sheet, placed.slab, placed.placements);
     return placed.placements.owner;
   });

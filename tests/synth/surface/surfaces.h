@@ -116,5 +116,16 @@ inline DistanceField sceneField(const ProcessSample& sample) {
 inline DistanceField chainmail() { return sceneField(makeChainmail({}, {1, 1, 1}, 1)); }
 inline DistanceField grass() { return sceneField(makeGrass({}, {1, 1, 1}, 1)); }
 inline DistanceField metal() { return sceneField(makeMetal({}, {1, 1, 1}, 1)); }
+/// Fewer samples of them, for tests of what does not need more.
+inline DistanceField littleChainmail() {
+  return sceneField(
+      makeChainmail({.columns = 2, .rows = 8, .ringRadius = 7, .wireRadius = 1.4}, {1, 1, 1}, 1));
+}
+inline DistanceField littleMetal() {
+  return sceneField(makeMetal({.side = 36, .grain = 8, .relief = 7}, {1, 1, 1}, 1));
+}
+inline DistanceField littleGrass() {
+  return sceneField(makeGrass({.side = 36, .length = 16}, {1, 1, 1}, 1));
+}
 
 }  // namespace exemplar::surface

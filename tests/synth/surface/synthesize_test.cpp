@@ -45,7 +45,7 @@ double solidVolume(const DistanceField& field) {
 }
 
 TEST(Synthesize, ChainmailIsClosedAndManifoldOnSurfacesOfAllKinds) {
-  const DistanceField mail = chainmail();
+  const DistanceField mail = littleChainmail();
   const TriangleMesh surfaces[] = {makeTorus({0, 0, 0}, {0, 0, 1}, 1, 0.4, 60, 30),
                                    makeSphere({0, 0, 0}, 1, 8),
                                    genusThreeMesh(),
@@ -62,10 +62,10 @@ TEST(Synthesize, ChainmailIsClosedAndManifoldOnSurfacesOfAllKinds) {
 
 TEST(Synthesize, EveryBaseIsClosedAndManifold) {
   const TriangleMesh body = bodyMesh(0.1);
-  for (const DistanceField& example : {chainmail(), metal(), grass()}) {
+  for (const DistanceField& example : {littleChainmail(), littleMetal(), littleGrass()}) {
     for (const Base base : {Base::None, Base::Under, Base::Carve}) {
       SurfaceOptions options;
-      options.span = 2;
+      options.span = 2.6;
       options.base = base;
       expectSound(laid(example, body, options));
     }
@@ -75,11 +75,11 @@ TEST(Synthesize, EveryBaseIsClosedAndManifold) {
 TEST(Synthesize, UnderneathItIsSolidAndCarvedOutOfItNothingSticksOut) {
   const TriangleMesh ball = makeSphere({0, 0, 0}, 1, 12);
   SurfaceOptions options;
-  options.span = 1;
+  options.span = 1.2;
   options.base = Base::Under;
-  const DistanceField under = laid(metal(), ball, options).field;
+  const DistanceField under = laid(littleMetal(), ball, options).field;
   options.base = Base::Carve;
-  const DistanceField carved = laid(metal(), ball, options).field;
+  const DistanceField carved = laid(littleMetal(), ball, options).field;
   for (std::size_t s = 0; s < under.values.count(); ++s) {
     const double r = length(under.position(cast<double>(under.values.ijk(s))));
     if (r < 0.97) {
@@ -98,7 +98,7 @@ TEST(Synthesize, UnderneathItIsSolidAndCarvedOutOfItNothingSticksOut) {
 }
 
 TEST(Synthesize, VolumeIsThatOfTheGroundAndTheMeanHeight) {
-  const DistanceField example = metal();
+  const DistanceField example = littleMetal();
   const Slab slab(example);
   double mean = 0;
   for (int j = 0; j < slab.size().y; ++j) {
@@ -111,7 +111,7 @@ TEST(Synthesize, VolumeIsThatOfTheGroundAndTheMeanHeight) {
   }
   const double radius = 1;
   SurfaceOptions options;
-  options.span = 1;
+  options.span = 0.6;
   options.base = Base::Under;
   const SurfaceResult result = laid(example, makeSphere({0, 0, 0}, radius, 24), options);
   const double sample = result.field.voxelSize;
@@ -140,7 +140,7 @@ TEST(Synthesize, ChainmailLeavesNoHolesOnATorus) {
 }
 
 TEST(Synthesize, IsTheSameAtAnyNumberOfThreads) {
-  const DistanceField mail = chainmail();
+  const DistanceField mail = littleChainmail();
   const TriangleMesh ball = makeSphere({0, 0, 0}, 1, 8);
   SurfaceOptions options;
   options.span = 2;
@@ -175,7 +175,7 @@ TEST(Synthesize, IsAsAlikeOnACylinderAsOnAPlane) {
 }
 
 TEST(Synthesize, AnotherSeedIsAnotherResult) {
-  const DistanceField rough = metal();
+  const DistanceField rough = littleMetal();
   const TriangleMesh ball = makeSphere({0, 0, 0}, 1, 8);
   SurfaceOptions options;
   options.span = 1;
@@ -214,7 +214,7 @@ TEST(Synthesize, MapsItsPointsBackOntoTheExamplesSurface) {
 }
 
 TEST(Synthesize, RefusesWhatCannotBe) {
-  const DistanceField rough = metal();
+  const DistanceField rough = littleMetal();
   SurfaceOptions options;
   options.base = Base::Under;
   EXPECT_THROW(laid(rough, planeMesh(1, 4), options), InputError);  // open
@@ -242,7 +242,7 @@ TEST(Synthesize, SliversAndManyPartsAreSound) {
   const TriangleMesh sliver = gridMesh(2, 1, false, [](int i, int j) {
     return Vec3d{i * 1.0, j * 1e-4, 0};
   });
-  EXPECT_NO_THROW(laid(metal(), sliver, options));
+  EXPECT_NO_THROW(laid(littleMetal(), sliver, options));
   TriangleMesh many;
   for (int k = 0; k < 500; ++k) {
     const double x = k % 25, y = k / 25;
@@ -251,7 +251,7 @@ TEST(Synthesize, SliversAndManyPartsAreSound) {
     many.triangles.push_back({first, first + 1, first + 2});
   }
   options.span = 12;
-  EXPECT_NO_THROW(laid(metal(), many, options));
+  EXPECT_NO_THROW(laid(littleMetal(), many, options));
 }
 
 }  // namespace
