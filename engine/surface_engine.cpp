@@ -26,14 +26,14 @@ namespace {
 using surface::Base;
 
 /// Which way the example's y goes.
-enum class Along { Auto, None, X, Y, Z };
+enum class Along { Auto, None, Curvature, X, Y, Z };
 
 struct EngineOptions {
   surface::SurfaceOptions surface;
   Along along = Along::Auto;
   Base base = Base::None;
   bool baseGiven = false;
-  std::string strokes;
+  std::string strokes, cover;
   bool likeness = false;
 };
 
@@ -60,17 +60,23 @@ const SettingTable<EngineOptions>& table() {
       }(),
       settingRow<O>("height", [](O & o) -> auto& { return o.surface.height; },
                     "height of the example over the surface, of its own", {0.05, 20}),
-      choiceRow<O, Along>("along", &O::along,
-                          "the direction that the example's y follows on the surface; none: the "
-                          "smoothest that there is",
-                          {{"auto", Along::Auto},
-                           {"none", Along::None},
-                           {"x", Along::X},
-                           {"y", Along::Y},
-                           {"z", Along::Z}},
-                          "auto: z where the example may not be turned, else none"),
+      choiceRow<O, Along>(
+          "along", &O::along,
+          "the direction that the example's y follows on the surface; curvature: "
+          "where it bends least, as along a limb; none: the smoothest that there is",
+          {{"auto", Along::Auto},
+           {"none", Along::None},
+           {"curvature", Along::Curvature},
+           {"x", Along::X},
+           {"y", Along::Y},
+           {"z", Along::Z}},
+          "auto: z where the example may not be turned, else none"),
       settingRow<O>("strokes", &O::strokes,
                     "a .obj with lines on the surface that the example's y follows"),
+      settingRow<O>("cover", &O::cover,
+                    "what of the surface the example covers: the name of a material there, or red, "
+                    "green, blue or alpha, where that channel of its vertex colors is at least one "
+                    "half"),
       settingRow<O>(
           "turns", [](O & o) -> auto& { return o.surface.symmetry; },
           "how often the example may be turned within once around: 1, 2, 4 or 6", {1, 6}, "",
@@ -190,7 +196,9 @@ class SurfaceEngine final : public Engine {
   Vec3i extentOf(std::span<const Example> examples, const Request& request) const override {
     EngineOptions options;
     table().apply(request.settings, options);
-    const Vec3d box = boundingBox(readTriangles(*request.on, request.reading.mesh)).size();
+    TriangleMesh on = readTriangles(*request.on, request.reading.mesh);
+    if (!options.cover.empty()) on = coveredPart(on, options.cover, request.on->name());
+    const Vec3d box = boundingBox(on).size();
     const Vec3i& example = examples.front().field().size();
     const double longest = std::max({example.x, example.y, example.z});
     const double sample = options.surface.span.value_or(length(box) / 4) / longest;
@@ -224,8 +232,8 @@ class SurfaceEngine final : public Engine {
     EngineOptions options;
     table().apply(request.settings, options);
     Result result;
-    const TriangleMesh on =
-        targetSurface(*request.on, request.reading.mesh, &result.warnings, progress.part(0, 0.05));
+    const TriangleMesh on = targetSurface(*request.on, request.reading.mesh, options.cover,
+                                          &result.warnings, progress.part(0, 0.05));
     surface::SurfaceOptions& surface = options.surface;
     surface.seed = request.seed;
     if (!options.strokes.empty())
@@ -240,6 +248,9 @@ class SurfaceEngine final : public Engine {
         break;
       case Along::Z:
         surface.along = Vec3d{0, 0, 1};
+        break;
+      case Along::Curvature:
+        surface.leastCurvature = true;
         break;
       case Along::None:
         surface.smoothest = true;

@@ -178,6 +178,47 @@ Guidance along(const Sheet& sheet, const Vec3d& direction, double reach) {
   return guidance;
 }
 
+Guidance alongLeastCurvature(const Sheet& sheet, double reach) {
+  Guidance guidance;
+  guidance.reach = reach;
+  guidance.angle.assign(sheet.positions.size(), 0);
+  guidance.confidence.assign(sheet.positions.size(), 0);
+  parallelFor(0, sheet.positions.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Vec3d& normal = sheet.nodeNormals[v];
+      const Vec3d x = sheet.axes[v], y = cross(normal, x);
+      // Taubin's matrix: the mean of d d^T, each by the curvature along d.
+      double xx = 0, xy = 0, yy = 0;
+      const auto links = sheet.links(static_cast<std::uint32_t>(v));
+      for (const Sheet::Link& link : links) {
+        const Vec3d step = sheet.positions[link.node] - sheet.positions[v];
+        const Vec3d turned = sheet.nodeNormals[link.node] - normal;
+        const double a = dot(step, x), b = dot(step, y), square = a * a + b * b;
+        if (square == 0) continue;
+        const double curvature = (dot(turned, x) * a + dot(turned, y) * b) / square;
+        const double weight = curvature / (square * static_cast<double>(links.size()));
+        xx += weight * a * a;
+        xy += weight * a * b;
+        yy += weight * b * b;
+      }
+      const double mean = (xx + yy) / 2, half = std::hypot((xx - yy) / 2, xy);
+      // Its eigenvalues are 3/8 of one principal curvature and 1/8 of the other.
+      const double most = 3 * (mean + half) - (mean - half);
+      const double least = 3 * (mean - half) - (mean + half);
+      const double larger = std::max(std::abs(most), std::abs(least));
+      if (larger == 0) continue;
+      const double along = std::atan2(xy, (xx - yy) / 2) / 2;  // of `most`
+      const double angle = std::abs(most) < std::abs(least) ? along : along + kPi / 2;
+      const Vec3d direction = x * std::cos(angle) + y * std::sin(angle);
+      guidance.angle[v] = sheet.angleOf(static_cast<std::uint32_t>(v),
+                                        direction.z < 0 ? direction * -1.0 : direction);
+      guidance.confidence[v] =
+          std::abs(std::abs(most) - std::abs(least)) / larger * std::min(1.0, larger * reach);
+    }
+  });
+  return guidance;
+}
+
 Guidance alongStrokes(const Sheet& sheet, const std::vector<std::vector<Vec3d>>& strokes,
                       double width, double reach) {
   Guidance guidance;

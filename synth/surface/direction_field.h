@@ -53,6 +53,12 @@ DirectionField smoothestField(const Sheet& sheet, int symmetry, const Guidance* 
 /// with as much confidence as there is of it. `reach` as in `Guidance`.
 Guidance along(const Sheet& sheet, const Vec3d& direction, double reach);
 
+/// The direction in which the surface bends least, as along a limb, at each node: that of the
+/// principal curvature of the smaller size (Taubin: "Estimating the tensor of curvature of a
+/// surface from a polyhedral approximation", ICCV 1995), upward of its two ways. With as much
+/// confidence as the two curvatures differ, none where the surface is flat within `reach`.
+Guidance alongLeastCurvature(const Sheet& sheet, double reach);
+
 /// Directions along polylines, at the nodes within `width` of them, world units.
 Guidance alongStrokes(const Sheet& sheet, const std::vector<std::vector<Vec3d>>& strokes,
                       double width, double reach);

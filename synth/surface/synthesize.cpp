@@ -111,6 +111,8 @@ std::optional<Guidance> guidanceOf(const Sheet& sheet, const SurfaceOptions& opt
       throw InputError(
           "`strokes`: no line runs on the surface; its lines must be in the surface's "
           "own coordinates");
+  } else if (options.leastCurvature) {
+    guidance = alongLeastCurvature(sheet, span / 4);
   } else if (options.along || (symmetry == 1 && !options.smoothest)) {
     guidance = along(sheet, options.along.value_or(Vec3d{0, 0, 1}), span / 4);
   }

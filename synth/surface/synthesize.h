@@ -36,7 +36,8 @@ struct SurfaceOptions {
   std::optional<int> symmetry;  ///< turns that the example allows, 1, 2, 4 or 6; found
   /// A direction in space that the example's y follows; where it has no turns, z.
   std::optional<Vec3d> along;
-  bool smoothest = false;  ///< no direction is followed, even where the example has no turns
+  bool leastCurvature = false;  ///< follow the way in which the surface bends least instead
+  bool smoothest = false;       ///< no direction is followed, even where the example has no turns
   /// Lines that the example's y follows, in the surface's coordinates.
   std::vector<std::vector<Vec3d>> strokes;
   double stretch = 1.15;  ///< of nearly all of a placement, at most; 1.02..2

@@ -92,6 +92,25 @@ TEST(DirectionField, FollowsADirectionWhereItLiesInTheSurface) {
     }
 }
 
+TEST(DirectionField, FollowsLimbsWhereverTheyPoint) {
+  // Tubes of other radii in three directions: y goes along each of them.
+  for (const Vec3d& way : {Vec3d{0, 0, 1}, Vec3d{1, 0, 0.2}, Vec3d{0.6, -0.8, 0.1}}) {
+    const std::vector<Vec3d> path{{0, 0, 0}, normalized(way) * 4.0};
+    const std::vector<double> radius{0.4};
+    const Sheet sheet = makeSheet(makeTube(path, radius, 32), {.edge = 0.15});
+    const Guidance limb = alongLeastCurvature(sheet, 0.5);
+    const DirectionField field = smoothestField(sheet, 2, &limb);
+    std::size_t looked = 0;
+    for (std::uint32_t v = 0; v < sheet.positions.size(); ++v) {
+      const double at = dot(sheet.positions[v], normalized(way));
+      if (at < 0.8 || at > 3.2) continue;  // the ends are round
+      EXPECT_LT(angleTo(sheet, field, v, way), 0.1);
+      ++looked;
+    }
+    EXPECT_GT(looked, 100u);
+  }
+}
+
 TEST(DirectionField, FollowsStrokesWithinFiveDegrees) {
   const Sheet sheet = makeSheet(planeMesh(4, 40), {.edge = 0.15});
   const std::vector<std::vector<Vec3d>> strokes{{{1, 0.5, 0}, {1.5, 2, 0}, {1.2, 3.5, 0}},
