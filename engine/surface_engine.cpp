@@ -226,6 +226,9 @@ class SurfaceEngine final : public Engine {
     if (options.surface.symmetry == 3 || options.surface.symmetry == 5)
       throw InputError("`turns` " + std::to_string(*options.surface.symmetry) +
                        ": expected 1, 2, 4 or 6");
+    if (!options.cover.empty() && options.baseGiven && options.base != Base::None)
+      throw InputError(
+          "`base`: what `cover` names is a part of the surface, which has no inside; use none");
   }
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {

@@ -102,6 +102,60 @@ def rabbit(x, y, z):
     return fused(d, egg(x, y, z, (-0.66, 0, 0.5), (0.17, 0.17, 0.17)), 0.08)
 
 
+def bend(t):
+    """A body that winds from the tip of its tail (0) to its snout (1): middles and radii."""
+    x, y = 3.4 * t - 1.7, 0.42 * np.sin(5.2 * t + 0.4) * (1 - 0.35 * t)
+    z = 0.34 + 0.75 * np.clip(t - 0.72, 0, 1) ** 1.2 * 2.2 - 0.2 * (1 - t) ** 3
+    radius = np.interp(t, [0, 0.25, 0.5, 0.68, 0.82, 0.92, 0.97, 1],
+                       [0.045, 0.13, 0.27, 0.25, 0.15, 0.17, 0.15, 0.08])
+    return np.stack([x, y, z], -1), radius
+
+
+def lizard(x, y, z):
+    middles, radii = bend(np.linspace(0, 1, 220))
+    d = np.full(x.shape, 9.0)
+    for (a, b, c), radius in zip(middles, radii):
+        d = np.minimum(d, np.sqrt((x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2) - radius)
+    for t, forward in ((0.45, -0.12), (0.68, 0.12)):
+        (a, b, c), radius = bend(np.float64(t))
+        for side in (-1, 1):
+            knee = (a + forward, b + side * 0.52, c + 0.02)
+            d = fused(d, rod(x, y, z, (a, b + side * 0.1, c - 0.05), knee, 0.1), 0.12)
+            d = fused(d, rod(x, y, z, knee, (a + 2 * forward, b + side * 0.6, 0.02), 0.085), 0.06)
+    return d
+
+
+def lines_along_the_back():
+    """From tail to head, on the back and both flanks."""
+    middles, radii = bend(np.linspace(0.02, 0.97, 60))
+    ways = np.gradient(middles, axis=0)
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    across = np.cross(ways, (0, 0, 1))
+    across /= np.linalg.norm(across, axis=1)[:, None]
+    above = np.cross(across, ways)
+    return [middles + radii[:, None] * (np.cos(a) * above + np.sin(a) * across) for a in (-1.2, 0, 1.2)]
+
+
+def write_lines(path, lines):
+    with open(path, "w", encoding="ascii") as file:
+        first = 1
+        for line in lines:
+            for x, y, z in line:
+                file.write(f"v {x:.6f} {z:.6f} {-y:.6f}\n")
+            file.write("l " + " ".join(str(first + n) for n in range(len(line))) + "\n")
+            first += len(line)
+
+
+def trunk(x, y, z):
+    lean = 0.12 * np.sin(1.6 * z)
+    d = rod(x - lean, y, z, (0, 0, -0.4), (0, 0, 1.3), 0.34) - 0.25 * np.clip(0.3 - z, 0, 0.7)
+    for start, end, radius in (((0.1, 0, 1.0), (0.85, 0.25, 2.1), 0.22),
+                               ((0, 0, 1.1), (-0.55, -0.2, 2.3), 0.24),
+                               ((-0.2, -0.05, 1.55), (-1.0, 0.35, 1.9), 0.14)):
+        d = fused(d, rod(x, y, z, start, end, radius), 0.16)
+    return np.maximum(d, -0.3 - z)
+
+
 def torus(i, j):
     a, b = 2 * np.pi * i / 96, 2 * np.pi * j / 48
     return ((1 + 0.4 * np.cos(b)) * np.cos(a), (1 + 0.4 * np.cos(b)) * np.sin(a), 0.4 * np.sin(b))
@@ -118,3 +172,6 @@ if __name__ == "__main__":
     write(folder / "torus.obj", *grid(96, 48, torus, True))
     write(folder / "hill.obj", *grid(39, 39, hill, False))
     write(folder / "rabbit.obj", *contour(rabbit, (-1, -0.8, -0.2), (1.2, 0.8, 2), (56, 41, 56)))
+    write(folder / "lizard.obj", *contour(lizard, (-2, -1.1, -0.2), (2.2, 1.1, 1.5), (106, 56, 44)))
+    write_lines(folder / "lizard_lines.obj", lines_along_the_back())
+    write(folder / "trunk.obj", *contour(trunk, (-1.5, -1, -1.1), (1.5, 1, 2.8), (61, 41, 79)))

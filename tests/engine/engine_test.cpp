@@ -425,6 +425,9 @@ TEST(SurfaceEngine, RefusesWhatDoesNotGoWithASurface) {
   EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
               ThrowsMessage<InputError>(HasSubstr("expected 1, 2, 4 or 6")));
   EXPECT_EQ(engineFor(Source::of(bumps()), {{"on", "ball.obj"}}).name(), "surface");
+  request.settings = {{"cover", "skin"}, {"base", "under"}};
+  EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
+              ThrowsMessage<InputError>(HasSubstr("has no inside")));
   request.settings = {{"cover", "skin"}};
   EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
               ThrowsMessage<InputError>(HasSubstr("neither named materials nor vertex colors")));
