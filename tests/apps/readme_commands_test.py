@@ -161,9 +161,9 @@ class Readme(unittest.TestCase):
         write_png(self.path("rust.png"), np.clip(rust, 0, 255))
         # A body whose corners the samples have rounded.
         write_obj(self.path("box.obj"), [((0, 0, 0), (3, 2, 2))])
+        self.run_command("sdf", "box.obj", "-o", "box.vdb", "-r", "32")
         for surface in ("body.obj", "trunk.obj"):
             self.run_command("mesh", "box.vdb", "-o", surface)
-        self.run_command("mesh", "box.vdb", "-o", "body.obj")
         write_grid(self.path("hill.obj"), 0.4 * np.exp(-3 * ((2 * x - 1) ** 2 + (2 * y - 1) ** 2))[::4, ::4])
 
     def path(self, name):
