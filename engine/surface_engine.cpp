@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "engine/engines.h"
+#include "engine/painted_surface.h"
 #include "engine/target_surface.h"
 #include "engine/words.h"
 #include "measure/surface_likeness.h"
@@ -33,7 +34,7 @@ struct EngineOptions {
   Along along = Along::Auto;
   Base base = Base::None;
   bool baseGiven = false;
-  std::string strokes, cover;
+  std::string strokes, cover, sizeMap;
   bool likeness = false;
 };
 
@@ -77,6 +78,9 @@ const SettingTable<EngineOptions>& table() {
                     "what of the surface the example covers: the name of a material there, or red, "
                     "green, blue or alpha, where that channel of its vertex colors is at least one "
                     "half"),
+      settingRow<O>("size-map", &O::sizeMap,
+                    "the channel of the surface's vertex colors (red, green, blue or alpha) that "
+                    "says how large the example is there: 0 half its size, 1 twice"),
       settingRow<O>(
           "turns", [](O & o) -> auto& { return o.surface.symmetry; },
           "how often the example may be turned within once around: 1, 2, 4 or 6", {1, 6}, "",
@@ -201,7 +205,9 @@ class SurfaceEngine final : public Engine {
     const Vec3d box = boundingBox(on).size();
     const Vec3i& example = examples.front().field().size();
     const double longest = std::max({example.x, example.y, example.z});
-    const double sample = options.surface.span.value_or(length(box) / 4) / longest;
+    double sample = options.surface.span.value_or(length(box) / 4) / longest;
+    if (!options.sizeMap.empty())
+      sample *= std::ranges::min(paintedSizes(on, options.sizeMap, request.on->name()));
     Vec3i size;
     for (int axis = 0; axis < 3; ++axis) {
       const double n = std::ceil(box[axis] / sample + 2 * options.surface.height * example.z);
@@ -239,6 +245,8 @@ class SurfaceEngine final : public Engine {
                                           &result.warnings, progress.part(0, 0.05));
     surface::SurfaceOptions& surface = options.surface;
     surface.seed = request.seed;
+    if (!options.sizeMap.empty())
+      surface.sizes = paintedSizes(on, options.sizeMap, request.on->name());
     if (!options.strokes.empty())
       surface.strokes = readStrokes(options.strokes, request.reading.mesh.up);
     if (options.baseGiven) surface.base = options.base;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "engine/painted_surface.h"
 #include "engine/words.h"
 #include "mesh/mesh_health.h"
 #include "reconstruct/manifold.h"
@@ -54,87 +55,14 @@ std::int64_t joinEqual(TriangleMesh& mesh) {
   std::sort(kept.begin(), kept.end());
   TriangleMesh bare;
   bare.positions = std::move(mesh.positions);
+  bare.colors = std::move(mesh.colors);
   for (const std::size_t t : kept) bare.triangles.push_back(mesh.triangles[t]);
   const auto doubled = static_cast<std::int64_t>(corners.size() - kept.size());
   mesh = std::move(bare);
   return doubled;
 }
 
-/// The channel of vertex colors that has a name, or -1.
-int channelOf(const std::string& name) {
-  constexpr std::array<const char*, 4> kChannels{"red", "green", "blue", "alpha"};
-  const auto found = std::find(kChannels.begin(), kChannels.end(), name);
-  return found == kChannels.end() ? -1 : static_cast<int>(found - kChannels.begin());
-}
-
-TriangleMesh ofMaterial(const TriangleMesh& mesh, std::size_t material) {
-  TriangleMesh part;
-  part.positions = mesh.positions;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.triangleMaterials[t] == material) part.triangles.push_back(mesh.triangles[t]);
-  return part;
-}
-
-/// Where a value that is linear between vertices is at least `limit`.
-TriangleMesh above(const TriangleMesh& mesh, const std::vector<float>& values, float limit) {
-  TriangleMesh part;
-  part.positions = mesh.positions;
-  const auto between = [&](std::uint32_t a, std::uint32_t b) {
-    // From the same end whichever triangle asks, also where vertices lie at equal positions.
-    const auto key = [&](std::uint32_t v) {
-      const Vec3d& p = mesh.positions[v];
-      return std::tuple(p.x, p.y, p.z);
-    };
-    if (key(b) < key(a)) std::swap(a, b);
-    const double share = (limit - values[a]) / (static_cast<double>(values[b]) - values[a]);
-    part.positions.push_back(mesh.positions[a] + (mesh.positions[b] - mesh.positions[a]) * share);
-    return static_cast<std::uint32_t>(part.positions.size() - 1);
-  };
-  for (const auto& triangle : mesh.triangles) {
-    std::vector<std::uint32_t> corners;
-    for (int c = 0; c < 3; ++c) {
-      const std::uint32_t a = triangle[c], b = triangle[(c + 1) % 3];
-      const bool in = values[a] >= limit;
-      if (in) corners.push_back(a);
-      if (in != (values[b] >= limit)) corners.push_back(between(a, b));
-    }
-    for (std::size_t c = 2; c < corners.size(); ++c)
-      part.triangles.push_back({corners[0], corners[c - 1], corners[c]});
-  }
-  return part;
-}
-
 }  // namespace
-
-TriangleMesh coveredPart(const TriangleMesh& mesh, const std::string& cover,
-                         const std::string& name) {
-  const auto material = std::find_if(mesh.materials.begin(), mesh.materials.end(),
-                                     [&](const Material& m) { return m.name == cover; }) -
-                        mesh.materials.begin();
-  const int channel = channelOf(cover);
-  TriangleMesh part;
-  if (mesh.hasMaterials() && material < static_cast<std::ptrdiff_t>(mesh.materials.size())) {
-    part = ofMaterial(mesh, static_cast<std::size_t>(material));
-  } else if (channel >= 0 && mesh.hasColors()) {
-    constexpr float kHalf = 0.5f;
-    std::vector<float> values;
-    for (const auto& color : mesh.colors)
-      values.push_back(color[static_cast<std::size_t>(channel)]);
-    part = above(mesh, values, kHalf);
-  } else {
-    std::vector<std::string> known;
-    if (mesh.hasMaterials())
-      for (const Material& m : mesh.materials)
-        if (!m.name.empty()) known.push_back("'" + m.name + "'");
-    if (mesh.hasColors()) known.push_back("red, green, blue or alpha");
-    throw InputError("`cover` " + cover + ": " + name +
-                     (known.empty() ? " has neither named materials nor vertex colors"
-                                    : " has " + joined(known, "and")));
-  }
-  if (part.triangles.empty())
-    throw InputError("`cover` " + cover + ": nothing of " + name + " is in it");
-  return part;
-}
 
 TriangleMesh targetSurface(const Source& source, const MeshFileOptions& options,
                            const std::string& cover, Warnings* warnings, const Progress& progress) {

@@ -15,18 +15,10 @@ namespace exemplar {
 
 /// A surface that an example can be laid on: read, with equal positions joined, cut into manifold
 /// sheets where it is none, and turned where a closed one is inside out. What was done about it
-/// goes to `warnings`. With a `cover`, the part of it that `coveredPart` leaves. Throws
-/// `InputError` naming the source, and `Cancelled`.
+/// goes to `warnings`. Vertex colors stay. With a `cover`, the part of it that `coveredPart`
+/// leaves. Throws `InputError` naming the source, and `Cancelled`.
 TriangleMesh targetSurface(const Source& source, const MeshFileOptions& options,
                            const std::string& cover = "", Warnings* warnings = nullptr,
                            const Progress& progress = {});
-
-/// The part of a mesh that `cover` names: triangles of the material of that name; or, for "red",
-/// "green", "blue" or "alpha" where no material is called so, where that channel of the vertex
-/// colors, linear between vertices, is at least one half: triangles are cut there. Triangles on
-/// both sides of a cut, or of its edge, have equal corners. `name` is what errors call the mesh.
-/// Throws `InputError` where there is no such material or channel, or nothing is left.
-TriangleMesh coveredPart(const TriangleMesh& mesh, const std::string& cover,
-                         const std::string& name);
 
 }  // namespace exemplar

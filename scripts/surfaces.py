@@ -17,6 +17,20 @@ def write(path, vertices, triangles):
             file.write(f"f {a + 1} {b + 1} {c + 1}\n")
 
 
+def write_sized(path, vertices, triangles, sizes):
+    """A .ply, which has z upward, whose alpha is 0 where an example has half its size, 1 for twice."""
+    alphas = np.clip(np.round(255 * (np.log2(sizes) + 1) / 2), 0, 255).astype(int)
+    properties = [f"property float {axis}" for axis in "xyz"]
+    properties += [f"property uchar {channel}" for channel in ("red", "green", "blue", "alpha")]
+    with open(path, "w", encoding="ascii") as file:
+        file.write(f"ply\nformat ascii 1.0\nelement vertex {len(vertices)}\n" + "\n".join(properties))
+        file.write(f"\nelement face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
+        for (x, y, z), alpha in zip(vertices, alphas):
+            file.write(f"{x:.6f} {y:.6f} {z:.6f} 180 180 180 {alpha}\n")
+        for a, b, c in triangles:
+            file.write(f"3 {a} {b} {c}\n")
+
+
 def grid(columns, rows, place, around):
     """Cells of a grid, bent by `place`; `around` joins the last ones to the first, both ways."""
     n, m = (columns, rows) if around else (columns + 1, rows + 1)
@@ -125,6 +139,15 @@ def lizard(x, y, z):
     return d
 
 
+def scale_sizes(vertices):
+    """Small on tail, snout and legs, large on the back."""
+    points = np.array(vertices)
+    middles, radii = bend(np.linspace(0, 1, 220))
+    near = np.argmin(np.linalg.norm(points[:, None] - middles, axis=2), axis=1)
+    legs = np.clip((np.linalg.norm(points - middles[near], axis=1) - radii[near]) / 0.15, 0, 1)
+    return np.clip(radii[near] / 0.22, 0.5, 1.25) * (1 - legs) + 0.55 * legs
+
+
 def lines_along_the_back():
     """From tail to head, on the back and both flanks."""
     middles, radii = bend(np.linspace(0.02, 0.97, 60))
@@ -172,6 +195,7 @@ if __name__ == "__main__":
     write(folder / "torus.obj", *grid(96, 48, torus, True))
     write(folder / "hill.obj", *grid(39, 39, hill, False))
     write(folder / "rabbit.obj", *contour(rabbit, (-1, -0.8, -0.2), (1.2, 0.8, 2), (56, 41, 56)))
-    write(folder / "lizard.obj", *contour(lizard, (-2, -1.1, -0.2), (2.2, 1.1, 1.5), (106, 56, 44)))
+    body = contour(lizard, (-2, -1.1, -0.2), (2.2, 1.1, 1.5), (106, 56, 44))
+    write_sized(folder / "lizard.ply", *body, scale_sizes(body[0]))
     write_lines(folder / "lizard_lines.obj", lines_along_the_back())
     write(folder / "trunk.obj", *contour(trunk, (-1.5, -1, -1.1), (1.5, 1, 2.8), (61, 41, 79)))

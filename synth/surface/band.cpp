@@ -121,7 +121,7 @@ Shown shownAt(std::span<const SheetContent::Part> parts, const Foot& foot, doubl
 
 /// How far the example reaches from the surface, and where on its z axis the surface is, samples.
 struct Reach {
-  double zero = 0, outward = 0, inward = 0, bottom = 0;
+  double zero = 0, up = 0, down = 0, bottom = 0;
 
   Reach(const Slab& slab, const BandOptions& options) {
     constexpr double kBoxBottom = -0.5;
@@ -138,10 +138,8 @@ struct Reach {
         zero = slab.high();
         break;
     }
-    const double up = options.base == Base::Carve ? 0 : (slab.top() - zero) * options.height;
-    const double down = options.base == Base::Under ? 0 : (zero - bottom) * options.height;
-    outward = std::max(up, 0.0) + kMargin;
-    inward = std::max(down, 0.0) + kMargin;
+    if (options.base != Base::Carve) up = std::max((slab.top() - zero) * options.height, 0.0);
+    if (options.base != Base::Under) down = std::max((zero - bottom) * options.height, 0.0);
   }
 };
 
@@ -208,14 +206,19 @@ Band fillBand(const Sheet& sheet, const FootFinder& feet, const SheetContent& co
               const Placements& placements, const Slab& slab, int symmetry,
               const BandOptions& options, const Progress& progress) {
   const Reach reach(slab, options);
-  const double sample = options.sample, limit = std::max(reach.outward, reach.inward) * sample;
+  const double voxel = options.voxel;
+  const double largest = *std::max_element(sheet.sizes.begin(), sheet.sizes.end());
+  // In voxels, where the example is largest.
+  const double most = options.sample * largest / voxel;
+  const double outward = reach.up * most + kMargin, inward = reach.down * most + kMargin;
+  const double limit = std::max(outward, inward) * voxel;
   Box3d box;
   for (const Vec3d& p : sheet.positions) box.add(p);
-  const double margin = (reach.outward + 1) * sample;
+  const double margin = (outward + 1) * voxel;
   const Vec3d extent = box.size() + Vec3d{1, 1, 1} * (2 * margin);
   constexpr double kMostSide = 32767;
   constexpr double kBytesPerSample = 40;  // with what contouring takes
-  const Vec3d sides = extent / sample;
+  const Vec3d sides = extent / voxel;
   requireMemory(kBytesPerSample * sides.x * sides.y * sides.z,
                 "a result of " + std::to_string(static_cast<long long>(sides.x)) + " x " +
                     std::to_string(static_cast<long long>(sides.y)) + " x " +
@@ -232,9 +235,9 @@ Band fillBand(const Sheet& sheet, const FootFinder& feet, const SheetContent& co
   DistanceField& field = band.field;
   constexpr float kUnknown = std::numeric_limits<float>::max();
   field.values = Array3D<float>(size, kUnknown);
-  field.voxelSize = sample;
+  field.voxelSize = voxel;
   field.origin = box.min - Vec3d{1, 1, 1} * margin;
-  field.truncation = static_cast<float>(kMargin * sample);
+  field.truncation = static_cast<float>(kMargin * voxel);
   band.origins = Origins(size);
   const double scale = std::min(1.0, options.height);
   const int quarters = 4 % symmetry == 0 ? 4 / symmetry : 0;
@@ -249,26 +252,28 @@ Band fillBand(const Sheet& sheet, const FootFinder& feet, const SheetContent& co
     serpentine(low, high, [&](const Vec3i& ijk) {
       const std::optional<Foot> foot = feet.find(field.position(cast<double>(ijk)), limit, near);
       if (!foot) return;
-      const double h = foot->height / sample, d = foot->distance / sample;
-      if (d > reach.outward || d < -reach.inward) return;
+      // All in voxels; `sample` is one of the example here.
+      const double sample = options.sample * sheet.sizeAt(foot->triangle, foot->weights) / voxel;
+      const double h = foot->height / voxel, d = foot->distance / voxel;
+      if (d > outward || d < -inward) return;
       ++count;
-      const double z = reach.zero + h / options.height;
+      const double z = reach.zero + h / (sample * options.height);
       const Shown shown = shownAt(content.at(foot->triangle), *foot, z, slab);
-      double value = shown.value * scale;
+      double value = shown.value * scale * sample;
+      const double bottom = h + (reach.zero - reach.bottom) * options.height * sample;
       switch (options.base) {
         case Base::None:
-          if (slab.grounded())
-            value = std::max(value, -(h + (reach.zero - reach.bottom) * options.height));
+          if (slab.grounded()) value = std::max(value, -bottom);
           break;
         case Base::Under:
           value = std::min(value, d);
           break;
         case Base::Carve:
-          value = std::max(d, std::min(value, h + (reach.zero - reach.bottom) * options.height));
+          value = std::max(d, std::min(value, bottom));
           break;
       }
-      if (foot->beyond > 0) value = std::max(value, foot->beyond / sample);
-      field.values[ijk] = static_cast<float>(std::clamp(value, -kMargin, kMargin) * sample);
+      if (foot->beyond > 0) value = std::max(value, foot->beyond / voxel);
+      field.values[ijk] = static_cast<float>(std::clamp(value, -kMargin, kMargin) * voxel);
       const auto cell = [](double x, int n) {
         return std::clamp(static_cast<int>(std::lround(x)), 0, n - 1);
       };

@@ -47,7 +47,8 @@ class SheetContent {
 };
 
 struct BandOptions {
-  double sample = 1;  ///< length of one on the surface, and of the result's voxels; > 0
+  double sample = 1;  ///< length of one on the surface where the example's size is 1; > 0
+  double voxel = 1;   ///< side of the result's, world units, > 0
   Base base = Base::None;
   double height = 1;  ///< of the example, of its own, > 0
 };

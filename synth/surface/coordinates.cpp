@@ -35,7 +35,7 @@ std::vector<Coordinates::Step> rawSteps(const Sheet& sheet, const DirectionField
     const int turns = field.turns(edge);
     const double atA = edge.angleA - field.angle[edge.a];
     const double atB = edge.angleB + kPi - field.angle[edge.b] + 2 * kPi * turns / field.symmetry;
-    const double half = edge.length / sample / 2;
+    const double half = edge.length / (sample * sheet.sizeOf(edge)) / 2;
     const Vec2d by{half * (std::cos(atA) + std::cos(atB)), half * (std::sin(atA) + std::sin(atB))};
     steps[e] = {toLattice * by, turns};
   }

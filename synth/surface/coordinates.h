@@ -44,12 +44,12 @@ struct Coordinates {
   std::vector<Mat2d> turns_;
 };
 
-/// Integrates the field: a sample of the example is `sample` long on the surface. With periods,
-/// phases are the eigenvectors of the smallest eigenvalue of the energy of Knöppel, Crane, Pinkall,
-/// Schröder ("Stripe patterns on surfaces", SIGGRAPH 2015, doi:10.1145/2767000, section 3), one for
-/// each period, together where the field's turns exchange them. Phases then spread with length 1 at
-/// every node (steps of a Ginzburg-Landau flow), and each moves to where its
-/// neighbors want it.
+/// Integrates the field: a sample of the example is `sample` long on the surface, times its size.
+/// With periods, phases are the eigenvectors of the smallest eigenvalue of the energy of Knöppel,
+/// Crane, Pinkall, Schröder ("Stripe patterns on surfaces", SIGGRAPH 2015, doi:10.1145/2767000,
+/// section 3), one for each period, together where the field's turns exchange them. Phases then
+/// spread with length 1 at every node (steps of a Ginzburg-Landau flow), and each moves to where
+/// its neighbors want it.
 ///
 /// `field.symmetry` is 1 or 2 with periods, or 4 where both are as long and across each other. The
 /// same bytes at any number of threads. Throws `Cancelled`.

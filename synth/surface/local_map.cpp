@@ -52,7 +52,8 @@ struct Disc {
       if (!number.emplace(next.node, at).second) continue;
       order.push_back({next.node, next.distance, next.parent, next.link});
       for (const Sheet::Link& link : sheet.links(next.node)) {
-        const double far = next.distance + sheet.edges[link.edge].length;
+        const Sheet::Edge& edge = sheet.edges[link.edge];
+        const double far = next.distance + edge.length / sheet.sizeOf(edge);
         if (far > distance) continue;
         const auto [found, fresh] = best.emplace(link.node, far);
         if (!fresh && found->second <= far) continue;
@@ -209,8 +210,9 @@ LocalMap LocalMapper::map(std::uint32_t seed, std::vector<StretchShare>* stretch
       const std::array<Vec3d, 3> p{sheet_.positions[whole.nodes[k[0]]],
                                    sheet_.positions[whole.nodes[k[1]]],
                                    sheet_.positions[whole.nodes[k[2]]]};
+      const double size = sheet_.sizeAt(triangle, {1.0 / 3, 1.0 / 3, 1.0 / 3});
       const auto [least, most] =
-          stretchOf(p, {whole.at[k[0]], whole.at[k[1]], whole.at[k[2]]}, options_.sample);
+          stretchOf(p, {whole.at[k[0]], whole.at[k[1]], whole.at[k[2]]}, options_.sample * size);
       pieces.push_back({farthest, {least, most, length(cross(p[1] - p[0], p[2] - p[0])) / 2}});
     }
   }

@@ -31,7 +31,7 @@ struct LocalMap {
 };
 
 struct LocalMapOptions {
-  double sample = 1;        ///< length of one on the surface, > 0
+  double sample = 1;        ///< length of one on the surface where its size is 1, > 0
   double radius = 12;       ///< samples, > 0; no map is larger
   double leastRadius = 12;  ///< samples, > 0; nor smaller for the sake of `stretch`
   /// Nearly all of a map (95 %, either way) is stretched by no more than this, and by no less than
@@ -57,7 +57,8 @@ class LocalMapper {
 
   LocalMap map(std::uint32_t seed, std::vector<StretchShare>* stretch = nullptr) const;
 
-  /// The nodes within `distance` along edges, world units, with their distances, nearest first.
+  /// The nodes within `distance` along edges, with their distances, nearest first: in world units
+  /// where the example's size is 1, elsewhere in its size.
   std::vector<std::pair<std::uint32_t, double>> near(std::uint32_t seed, double distance) const;
 
   /// Whether what two nodes of a map, joined by an edge, have there is what the edge adds: else

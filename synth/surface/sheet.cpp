@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <queue>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -77,6 +78,8 @@ class SheetBuilder {
       if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0] && length(n) > 0) s_.triangles.push_back(t);
     }
     if (s_.triangles.empty()) throw InputError("the surface has no triangle with area");
+    s_.sizes = options.sizes;
+    if (s_.sizes.empty()) s_.sizes.assign(s_.positions.size(), 1);
   }
 
   Sheet build(const Progress& progress) {
@@ -97,8 +100,11 @@ class SheetBuilder {
 
  private:
   void requireRoom() const {
-    double area = 0;
-    for (const Triangle& t : s_.triangles) area += length(areaNormalOf(t)) / 2;
+    double area = 0;  // in squares of the example's size there
+    for (const Triangle& t : s_.triangles) {
+      const double size = (s_.sizes[t[0]] + s_.sizes[t[1]] + s_.sizes[t[2]]) / 3;
+      area += length(areaNormalOf(t)) / 2 / (size * size);
+    }
     // An edge that is halved is between one half and all of the limit.
     const double nodes =
         static_cast<double>(s_.positions.size()) + area / (0.35 * options_.edge * options_.edge);
@@ -167,14 +173,16 @@ class SheetBuilder {
 
   /// Halves all edges that are too long, once. Returns whether there were any.
   bool refine() {
-    const double limit = options_.edge * options_.edge;
     std::vector<Triangle> middle(s_.triangles.size(), {kNone, kNone, kNone});
     bool any = false;
     Sides(s_.triangles).forEachEdge([&](auto first, auto last) {
       const Vec3d along = s_.positions[first->high] - s_.positions[first->low];
-      if (dot(along, along) <= limit) return;
+      const double size = (s_.sizes[first->low] + s_.sizes[first->high]) / 2;
+      const double limit = options_.edge * size;
+      if (dot(along, along) <= limit * limit) return;
       any = true;
       const auto node = static_cast<std::uint32_t>(s_.positions.size());
+      s_.sizes.push_back(size);
       s_.positions.push_back((s_.positions[first->low] + s_.positions[first->high]) * 0.5);
       for (auto side = first; side != last; ++side) middle[side->triangle][side->corner] = node;
     });
@@ -237,16 +245,19 @@ class SheetBuilder {
   void dropUnused() {
     std::vector<std::uint32_t> number(s_.positions.size(), kNone);
     std::vector<Vec3d> positions;
+    std::vector<double> sizes;
     for (Triangle& t : s_.triangles) {
       for (std::uint32_t& node : t) {
         if (number[node] == kNone) {
           number[node] = static_cast<std::uint32_t>(positions.size());
           positions.push_back(s_.positions[node]);
+          sizes.push_back(s_.sizes[node]);
         }
         node = number[node];
       }
     }
     s_.positions = std::move(positions);
+    s_.sizes = std::move(sizes);
   }
 
   void makeEdges() {
@@ -382,9 +393,38 @@ Vec3d Sheet::directionOf(std::uint32_t node, double angle) const {
   return axes[node] * std::cos(angle) + left * std::sin(angle);
 }
 
+double Sheet::sizeAt(std::uint32_t triangle, const std::array<double, 3>& weights) const {
+  double size = 0;
+  for (int c = 0; c < 3; ++c) size += weights[c] * sizes[triangles[triangle][c]];
+  return size;
+}
+
+void evenSizes(Sheet& sheet, double rate) {
+  using Entry = std::pair<double, std::uint32_t>;  // logarithm of a size, node
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::uint32_t v = 0; v < sheet.sizes.size(); ++v) queue.push({std::log(sheet.sizes[v]), v});
+  std::vector<std::uint8_t> done(sheet.sizes.size(), 0);
+  while (!queue.empty()) {
+    const auto [size, v] = queue.top();
+    queue.pop();
+    if (done[v]) continue;
+    done[v] = 1;
+    for (const Sheet::Link& link : sheet.links(v)) {
+      const double most = size + rate * sheet.edges[link.edge].length;
+      if (std::log(sheet.sizes[link.node]) <= most) continue;
+      sheet.sizes[link.node] = std::exp(most);
+      queue.push({most, link.node});
+    }
+  }
+}
+
 Sheet makeSheet(const TriangleMesh& mesh, const SheetOptions& options, const Progress& progress) {
   if (!(options.edge > 0)) throw InputError("the length of a sheet's edges must be above 0");
   validate(mesh, "the surface");
+  if (!options.sizes.empty() && options.sizes.size() != mesh.positions.size())
+    throw InputError("the surface needs a size for each vertex, or none");
+  for (const double size : options.sizes)
+    if (!(size > 0) || !std::isfinite(size)) throw InputError("sizes on a surface must be above 0");
   return SheetBuilder(mesh, options).build(progress);
 }
 

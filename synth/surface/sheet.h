@@ -50,6 +50,7 @@ struct Sheet {
   std::vector<Vec3d> nodeNormals;  ///< n, unit
   std::vector<Vec3d> axes;         ///< n, unit: where the angle 0 points
   std::vector<double> areas;       ///< n: a third of that of the triangles around
+  std::vector<double> sizes;       ///< n: of the example there, of its own
   std::vector<std::uint8_t> atBorder;
   std::vector<std::uint32_t> component;  ///< n: numbered by their lowest nodes, ascending
   std::uint32_t components = 0;
@@ -62,6 +63,9 @@ struct Sheet {
     return {fans_.data() + fanBegin_[node], fanBegin_[node + 1] - fanBegin_[node]};
   }
   bool closed() const;
+  /// The example's size along an edge, and on a triangle at a place that corners weigh.
+  double sizeOf(const Edge& edge) const { return (sizes[edge.a] + sizes[edge.b]) / 2; }
+  double sizeAt(std::uint32_t triangle, const std::array<double, 3>& weights) const;
   /// Vertices less edges plus triangles.
   std::int64_t eulerCharacteristic() const;
 
@@ -76,7 +80,10 @@ struct Sheet {
 };
 
 struct SheetOptions {
-  double edge = 1;  ///< edges are cut until they are no longer than this, world units, > 0
+  /// Edges are cut until they are no longer than this times the example's size, world units, > 0.
+  double edge = 1;
+  /// The example's size at each vertex, of its own, > 0; empty: 1 everywhere.
+  std::vector<double> sizes;
   /// Where two triangles meet at a larger angle there is a crease: normals do not go on across it;
   /// radians.
   double crease = 0.7;
@@ -91,5 +98,11 @@ struct SheetOptions {
 /// and `Cancelled`.
 Sheet makeSheet(const TriangleMesh& mesh, const SheetOptions& options,
                 const Progress& progress = {});
+
+/// Makes sizes smaller where they change by more than a factor e^(`rate` d) over a way of length d
+/// along edges: the largest ones that do not, and are nowhere above the given (Dijkstra's
+/// algorithm, from the smallest). Pieces of the example on both sides of such a place would not fit
+/// together.
+void evenSizes(Sheet& sheet, double rate);
 
 }  // namespace exemplar::surface

@@ -55,8 +55,9 @@ std::optional<OriginMap::Place> SurfaceOrigins::place(std::uint32_t part,
     }
     const std::array<Vec3d, 2> g = gradients(corners, there.source);
     Place place;
+    const double size = sheet_->sizeAt(foot->triangle, foot->weights);
     place.index = {source.x, source.y,
-                   scale_.zero + foot->height / (scale_.sample * scale_.height)};
+                   scale_.zero + foot->height / (scale_.sample * size * scale_.height)};
     place.rows = {normalized(g[0]), normalized(g[1]), normalized(up)};
     return place;
   }

@@ -18,7 +18,7 @@ namespace exemplar::surface {
 class SurfaceOrigins final : public OriginMap {
  public:
   struct Scale {
-    double sample = 1;  ///< length of one on the surface
+    double sample = 1;  ///< length of one on the surface where the example's size is 1
     double height = 1;  ///< of the example, of its own
     double zero = 0;    ///< where the surface is along the example's z, samples
     double limit = 1;   ///< how far from the sheet there is anything, world units

@@ -23,6 +23,8 @@ constexpr double kEdge = 1.5, kRadius = 0.3;
 /// Maps are no smaller than so many samples, or so many periods, for the sake of stretch.
 constexpr double kLeastRadius = 12, kLeastPeriods = 1.5;
 constexpr double kDefaultSpan = 0.25;
+/// Sizes change by no more than a factor e^this over the largest radius of a map.
+constexpr double kSizeChange = 0.2;
 /// Height times curvature above which the example does not fit.
 constexpr double kSteep = 0.8;
 
@@ -95,7 +97,7 @@ double steepShare(const Sheet& sheet, double height) {
       const Vec3d turn = sheet.nodeNormals[link.node] - sheet.nodeNormals[v];
       most = std::max(most, length(turn) / sheet.edges[link.edge].length);
     }
-    if (most * height > kSteep) steep += sheet.areas[v];
+    if (most * height * sheet.sizes[v] > kSteep) steep += sheet.areas[v];
   }
   return steep / sheet.area;
 }
@@ -184,8 +186,10 @@ SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMe
   figures.periods = lattice.periods;
   stage("example");
 
-  const auto ofSheet =
-      std::make_shared<const Sheet>(makeSheet(on, {.edge = kEdge * sample}, progress.part(0, 0.1)));
+  const LocalMapOptions mapping = mappingOf(slab, lattice, options, sample);
+  const auto ofSheet = std::make_shared<Sheet>(
+      makeSheet(on, {.edge = kEdge * sample, .sizes = options.sizes}, progress.part(0, 0.1)));
+  if (!options.sizes.empty()) evenSizes(*ofSheet, kSizeChange / (mapping.radius * sample));
   const Sheet& sheet = *ofSheet;
   figures.nodes = static_cast<std::int64_t>(sheet.positions.size());
   figures.closed = sheet.closed();
@@ -202,7 +206,7 @@ SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMe
   figures.dislocations = static_cast<std::int64_t>(coordinates.dislocations.size());
   stage("stripes");
 
-  const LocalMapper mapper(sheet, coordinates, mappingOf(slab, lattice, options, sample));
+  const LocalMapper mapper(sheet, coordinates, mapping);
   std::vector<StretchShare> stretch;
   Placements placements = place(mapper, slab, {.seed = options.seed, .symmetry = symmetry},
                                 &stretch, progress.part(0.4, 0.6));
@@ -218,7 +222,10 @@ SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMe
   const auto feet = std::make_shared<const FootFinder>(sheet, progress.part(0.75, 0.78));
   const auto content = std::make_shared<const SheetContent>(mapper, placements);
   Band band = fillBand(sheet, *feet, *content, placements, slab, symmetry.turns,
-                       {.sample = sample, .base = figures.base, .height = options.height},
+                       {.sample = sample,
+                        .voxel = sample * *std::ranges::min_element(sheet.sizes),
+                        .base = figures.base,
+                        .height = options.height},
                        progress.part(0.78, 1));
   figures.bandSamples = band.samples;
   stage("band");

@@ -40,6 +40,9 @@ struct SurfaceOptions {
   bool smoothest = false;       ///< no direction is followed, even where the example has no turns
   /// Lines that the example's y follows, in the surface's coordinates.
   std::vector<std::vector<Vec3d>> strokes;
+  /// The example's size at each of the surface's vertices, of its own, > 0; empty: 1 everywhere.
+  /// Made smaller where it changes too fast for the example to follow.
+  std::vector<double> sizes;
   double stretch = 1.15;  ///< of nearly all of a placement, at most; 1.02..2
   /// How many pieces of the result are laid flat again, to be compared with the example; >= 0.
   int patches = 0;

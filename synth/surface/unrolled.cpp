@@ -95,15 +95,16 @@ Unrolled unroll(const Sheet& sheet, const DirectionField& directions,
     for (std::size_t n = begin; n < end; ++n) {
       progress.check();
       const LocalMap map = mapper.map(random.below(nodes, n));
+      const double sample = options.sample * sheet.sizes[map.seed];
       if (std::ranges::any_of(map.nodes, [&](std::uint32_t v) { return broken[v]; })) continue;
       const std::vector<Lifted> grid = lift(sheet, map, places, options.perSample);
       if (!std::ranges::all_of(grid, &Lifted::there)) continue;
       Array3D<float> patch({places, places, options.layers});
       forEachCell(patch.size(), [&](const Vec3i& p) {
         const Lifted& place = grid[static_cast<std::size_t>(p.y) * places + p.x];
-        const double up = (p.z - options.zero) * options.sample * options.height;
-        patch[p] = static_cast<float>(sampleCubic(field, place.position + place.normal * up) /
-                                      options.sample);
+        const double up = (p.z - options.zero) * sample * options.height;
+        patch[p] =
+            static_cast<float>(sampleCubic(field, place.position + place.normal * up) / sample);
       });
       made[n] = std::move(patch);
     }

@@ -67,6 +67,31 @@ TEST(Sheet, EulerCharacteristicsAreThoseOfTheSurfaces) {
   EXPECT_EQ(makeSheet(genusThreeMesh(), {.edge = 1}).eulerCharacteristic(), -4);
 }
 
+TEST(Sheet, IsFinerWhereTheExampleIsSmaller) {
+  const TriangleMesh plane = planeMesh(2, 4);
+  std::vector<double> sizes;
+  for (const Vec3d& p : plane.positions) sizes.push_back(p.x < 1 ? 0.5 : 2);
+  Sheet sheet = makeSheet(plane, {.edge = 0.2, .sizes = sizes});
+  double left = 0, right = 0;
+  for (const Sheet::Edge& edge : sheet.edges) {
+    EXPECT_LE(edge.length, 0.2 * sheet.sizeOf(edge) + 1e-12);
+    (sheet.positions[edge.a].x < 1 ? left : right) += 1;
+  }
+  EXPECT_GT(left, 4 * right);
+  // Steps become slopes, and nothing becomes larger.
+  const std::vector<double> before = sheet.sizes;
+  evenSizes(sheet, 0.7);
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    EXPECT_LE(sheet.sizes[v], before[v]);
+    if (sheet.positions[v].x < 0.5) {
+      EXPECT_EQ(sheet.sizes[v], before[v]);
+    }
+  }
+  for (const Sheet::Edge& edge : sheet.edges)
+    EXPECT_LE(std::abs(std::log(sheet.sizes[edge.a] / sheet.sizes[edge.b])),
+              0.7 * edge.length + 1e-12);
+}
+
 TEST(Sheet, RefusesWhatIsNoManifold) {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}};

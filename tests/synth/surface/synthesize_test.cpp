@@ -150,6 +150,35 @@ TEST(Synthesize, IsTheSameAtAnyNumberOfThreads) {
   });
 }
 
+/// Rough metal on a plane, half as large: the same field on half the plane, but for its voxels.
+TEST(Synthesize, AnExampleOfHalfItsSizeIsTheSameOnHalfThePlane) {
+  const DistanceField rough = littleMetal();
+  SurfaceOptions options;
+  options.span = 1;
+  const SurfaceResult whole = laid(rough, planeMesh(2, 12), options);
+  options.span = 2;
+  options.sizes.assign(planeMesh(2, 12).positions.size(), 0.5);
+  const SurfaceResult half = laid(rough, planeMesh(2, 12), options);
+  ASSERT_EQ(half.field.size(), whole.field.size());
+  EXPECT_DOUBLE_EQ(half.field.voxelSize, whole.field.voxelSize);
+  for (std::size_t s = 0; s < half.field.values.count(); ++s)
+    ASSERT_NEAR(half.field.values.values()[s], whole.field.values.values()[s], 1e-5);
+}
+
+/// Distances across where the example is small are as many samples of it as where it is large.
+TEST(Synthesize, ChainmailOfSizesThatChangeStaysInStepAndSound) {
+  const TriangleMesh tube = cylinderMesh(0.5, 2.4, 40, 24);
+  SurfaceOptions options;
+  options.span = 1;
+  for (const Vec3d& p : tube.positions) options.sizes.push_back(0.6 + 0.2 * p.z);
+  options.patches = 1;
+  const SurfaceResult result = laid(littleChainmail(), tube, options);
+  expectSound(result);
+  EXPECT_LT(result.figures.disagreement, 0.3);
+  EXPECT_GT(result.figures.dislocations, 0);
+  EXPECT_NEAR(result.field.voxelSize, 0.6 / 40, 0.6 / 40 * 0.2);
+}
+
 /// Nothing can be more alike than on a plane, which costs resampling alone; a plane that is bent
 /// without being stretched should not be less.
 TEST(Synthesize, IsAsAlikeOnACylinderAsOnAPlane) {

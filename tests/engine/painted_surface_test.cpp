@@ -1,11 +1,12 @@
 // exemplar: give it one example; get as much more of it as you want.
 // Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
 
-#include "engine/target_surface.h"
+#include "engine/painted_surface.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "core/error.h"
@@ -92,6 +93,17 @@ TEST(CoveredPart, RefusesWhatIsNotThereNamingWhatIs) {
               ThrowsMessage<InputError>(HasSubstr("wall.obj has 'plaster'")));
   EXPECT_THAT([] { coveredPart(shadedSquare(), "green", "wall.ply"); },
               ThrowsMessage<InputError>(HasSubstr("nothing of wall.ply is in it")));
+}
+
+TEST(PaintedSizes, AreHalfToTwice) {
+  const TriangleMesh mesh = shadedSquare();
+  const std::vector<double> sizes = paintedSizes(mesh, "red", "wall.ply");
+  for (std::size_t v = 0; v < sizes.size(); ++v)
+    EXPECT_NEAR(sizes[v], std::pow(2, 2 * mesh.positions[v].x - 1), 1e-6);
+  EXPECT_THAT([&] { paintedSizes(mesh, "violet", "wall.ply"); },
+              ThrowsMessage<InputError>(HasSubstr("expected red, green, blue or alpha")));
+  EXPECT_THAT([] { paintedSizes(makeSphere({}, 1, 2), "red", "ball.obj"); },
+              ThrowsMessage<InputError>(HasSubstr("ball.obj has no vertex colors")));
 }
 
 }  // namespace
