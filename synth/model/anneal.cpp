@@ -33,6 +33,10 @@ constexpr int kImplied = 160, kFar = 4;
 /// Conflicts that a patch may have for each column along its border, at last; few at first: what
 /// comes whole is to come before what must be mended.
 constexpr double kConflicts = 1.6;
+/// From this share of the moves on there may be so many conflicts in any case, and rims be so wide:
+/// where all is slopes, as in a canyon, nothing comes whole, and slopes take some cells to meet.
+constexpr double kWideFrom = 0.3;
+constexpr int kConflictsWide = 60, kWidestRim = 6;
 /// The share of the cells around a core that its place in the example must agree with, at last.
 constexpr double kAgreement = 0.75;
 /// One core in so many has a part of the height only.
@@ -200,6 +204,10 @@ void PatchAnnealing::propose(Proposal& proposal, std::uint64_t number, const Vec
   const Vec3i grown = min(patch.core.size() + Vec3i{8, 8, 0}, patch.grown.size());
   patch.mostConflicts = 2 + static_cast<int>(kConflicts * 2 * (grown.x + grown.y) * done_);
   patch.rim = draws.between(1, kRim);
+  if (done_ >= kWideFrom) {
+    patch.mostConflicts = std::max(patch.mostConflicts, kConflictsWide);
+    patch.widestRim = kWidestRim;
+  }
   if (draws.below(kFar) > 0) patch.mostImplied = kImplied;
   proposal.threshold = -temperature_ * std::log(1 - draws.uniform());
   proposal.outcome = PatchMove::Outcome::Nothing;
