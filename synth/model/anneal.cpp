@@ -51,7 +51,7 @@ class PatchAnnealing {
   PatchAnnealing(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                  const PatchGoal& goal, std::uint64_t seed, std::vector<Label>& labels,
                  const AnnealSchedule& schedule, const Progress& progress);
-  void run(ModelStatistics& statistics);
+  double run(ModelStatistics& statistics);
 
  private:
   struct Proposal {
@@ -288,7 +288,7 @@ bool PatchAnnealing::weigh(const Proposal& proposal) {
   return true;
 }
 
-void PatchAnnealing::run(ModelStatistics& statistics) {
+double PatchAnnealing::run(ModelStatistics& statistics) {
   counts_.count(grid_, progress_);
   copies_.count(grid_, progress_);
   const double columns = double(options_.size.x) * options_.size.y;
@@ -312,8 +312,8 @@ void PatchAnnealing::run(ModelStatistics& statistics) {
         ++statistics.movesKept;
     }
   }
-
-  statistics.moves = static_cast<std::int64_t>(number);
+  statistics.moves += static_cast<std::int64_t>(number);
+  return counts_.energy() + options_.copyPrice * static_cast<double>(copies_.copies());
 }
 
 }  // namespace
@@ -326,11 +326,12 @@ void annealPatches(const ModelProblem& problem, const LabelSets& base, const Lab
                 problem.options().seed, labels, schedule, statistics, progress);
 }
 
-void annealPatches(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-                   const PatchGoal& goal, std::uint64_t seed, std::vector<Label>& labels,
-                   const AnnealSchedule& schedule, ModelStatistics& statistics,
-                   const Progress& progress) {
-  PatchAnnealing(problem, base, chooser, goal, seed, labels, schedule, progress).run(statistics);
+double annealPatches(const ModelProblem& problem, const LabelSets& base,
+                     const LabelChooser& chooser, const PatchGoal& goal, std::uint64_t seed,
+                     std::vector<Label>& labels, const AnnealSchedule& schedule,
+                     ModelStatistics& statistics, const Progress& progress) {
+  return PatchAnnealing(problem, base, chooser, goal, seed, labels, schedule, progress)
+      .run(statistics);
 }
 
 }  // namespace exemplar
