@@ -33,6 +33,10 @@ constexpr int kImplied = 160, kFar = 4;
 /// Conflicts that a patch may have for each column along its border, at last; few at first: what
 /// comes whole is to come before what must be mended.
 constexpr double kConflicts = 1.6;
+/// From this share of the moves on there may be so many conflicts in any case, and rims be so wide:
+/// where all is slopes, as in a canyon, nothing comes whole, and slopes take some cells to meet.
+constexpr double kWideFrom = 0.3;
+constexpr int kConflictsWide = 60, kWidestRim = 6;
 /// The share of the cells around a core that its place in the example must agree with, at last.
 constexpr double kAgreement = 0.75;
 /// One core in so many has a part of the height only.
@@ -47,7 +51,7 @@ class PatchAnnealing {
   PatchAnnealing(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
                  const PatchGoal& goal, std::uint64_t seed, std::vector<Label>& labels,
                  const AnnealSchedule& schedule, const Progress& progress);
-  void run(ModelStatistics& statistics);
+  double run(ModelStatistics& statistics);
 
  private:
   struct Proposal {
@@ -200,6 +204,10 @@ void PatchAnnealing::propose(Proposal& proposal, std::uint64_t number, const Vec
   const Vec3i grown = min(patch.core.size() + Vec3i{8, 8, 0}, patch.grown.size());
   patch.mostConflicts = 2 + static_cast<int>(kConflicts * 2 * (grown.x + grown.y) * done_);
   patch.rim = draws.between(1, kRim);
+  if (done_ >= kWideFrom) {
+    patch.mostConflicts = std::max(patch.mostConflicts, kConflictsWide);
+    patch.widestRim = kWidestRim;
+  }
   if (draws.below(kFar) > 0) patch.mostImplied = kImplied;
   proposal.threshold = -temperature_ * std::log(1 - draws.uniform());
   proposal.outcome = PatchMove::Outcome::Nothing;
@@ -280,7 +288,7 @@ bool PatchAnnealing::weigh(const Proposal& proposal) {
   return true;
 }
 
-void PatchAnnealing::run(ModelStatistics& statistics) {
+double PatchAnnealing::run(ModelStatistics& statistics) {
   counts_.count(grid_, progress_);
   copies_.count(grid_, progress_);
   const double columns = double(options_.size.x) * options_.size.y;
@@ -304,8 +312,8 @@ void PatchAnnealing::run(ModelStatistics& statistics) {
         ++statistics.movesKept;
     }
   }
-
-  statistics.moves = static_cast<std::int64_t>(number);
+  statistics.moves += static_cast<std::int64_t>(number);
+  return counts_.energy() + options_.copyPrice * static_cast<double>(copies_.copies());
 }
 
 }  // namespace
@@ -318,11 +326,12 @@ void annealPatches(const ModelProblem& problem, const LabelSets& base, const Lab
                 problem.options().seed, labels, schedule, statistics, progress);
 }
 
-void annealPatches(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-                   const PatchGoal& goal, std::uint64_t seed, std::vector<Label>& labels,
-                   const AnnealSchedule& schedule, ModelStatistics& statistics,
-                   const Progress& progress) {
-  PatchAnnealing(problem, base, chooser, goal, seed, labels, schedule, progress).run(statistics);
+double annealPatches(const ModelProblem& problem, const LabelSets& base,
+                     const LabelChooser& chooser, const PatchGoal& goal, std::uint64_t seed,
+                     std::vector<Label>& labels, const AnnealSchedule& schedule,
+                     ModelStatistics& statistics, const Progress& progress) {
+  return PatchAnnealing(problem, base, chooser, goal, seed, labels, schedule, progress)
+      .run(statistics);
 }
 
 }  // namespace exemplar

@@ -65,10 +65,10 @@ void annealPatches(const ModelProblem& problem, const LabelSets& base, const Lab
                    const AnnealSchedule& schedule, ModelStatistics& statistics,
                    const Progress& progress = {});
 /// The same for one of several labelings of a problem, with the random numbers of `seed` in place
-/// of the request's.
-void annealPatches(const ModelProblem& problem, const LabelSets& base, const LabelChooser& chooser,
-                   const PatchGoal& goal, std::uint64_t seed, std::vector<Label>& labels,
-                   const AnnealSchedule& schedule, ModelStatistics& statistics,
-                   const Progress& progress = {});
+/// of the request's. Returns the energy at last, copies included.
+double annealPatches(const ModelProblem& problem, const LabelSets& base,
+                     const LabelChooser& chooser, const PatchGoal& goal, std::uint64_t seed,
+                     std::vector<Label>& labels, const AnnealSchedule& schedule,
+                     ModelStatistics& statistics, const Progress& progress = {});
 
 }  // namespace exemplar

@@ -6,11 +6,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "core/parallel.h"
+#include "synth/model/column_ratios.h"
 
 namespace exemplar {
 namespace {
+
+/// What a single cell of a label at a height counts for, in larger blocks: few labels too many or
+/// too few change much.
+constexpr double kSingle = 3;
+double weightOf(int side) { return side == 0 ? kSingle : 1; }
 
 std::uint64_t mixed(std::uint64_t v) {  // SplitMix64
   v += 0x9E3779B97F4A7C15u;
@@ -19,16 +26,9 @@ std::uint64_t mixed(std::uint64_t v) {  // SplitMix64
   return v ^ (v >> 31);
 }
 
-/// How often a block at a place along an axis of the example should occur along that axis of the
-/// result, `from` and `to` being how many places there are.
-double ratioAlong(int place, int from, int to, bool sides) {
-  if (!sides || from < 3 || to < 3) return double(to) / from;
-  return place == 0 || place == from - 1 ? 1 : double(to - 2) / (from - 2);
-}
-
 /// What the user's weights make of the number of blocks that hold these labels: the weight that is
 /// furthest from 1 counts.
-double weightOf(double a, double b) {
+double strongerWeight(double a, double b) {
   return std::abs(std::log(a)) > std::abs(std::log(b)) ? a : b;
 }
 
@@ -39,7 +39,9 @@ BlockCounts::BlockCounts(const ModelProblem& problem, std::span<const PatchSourc
     : problem_(&problem),
       size_(problem.options().size),
       frames_(problem.options().frames),
-      periodic_(problem.options().periodic) {
+      labels_(problem.network().labels),
+      periodic_(problem.options().periodic),
+      stands_(problem.heightsDiffer()) {
   Vec3i most = size_;
   for (const PatchSource& s : sources) most = min(most, s.size);
   for (int b = 0; b <= problem.network().labels; ++b) {
@@ -143,18 +145,17 @@ void BlockCounts::grow() {
 
 void BlockCounts::countSources(std::span<const PatchSource> sources, const Progress& progress) {
   const ModelOptions& o = problem_->options();
-  // Along which axes the result has sides like the example's.
-  std::array<bool, 3> sides{};
-  for (int axis = 0; axis < 3; ++axis) {
+  std::array<bool, 2> ends{};
+  for (int axis = 0; axis < 2; ++axis) {
     const auto kind = [&](int s) { return o.sides[2 * axis + s].kind; };
-    sides[axis] = !o.periodic[axis] && kind(0) == SideRule::Kind::Example &&
-                  kind(1) == SideRule::Kind::Example;
+    ends[axis] = !o.periodic[axis] && kind(0) == SideRule::Kind::Example &&
+                 kind(1) == SideRule::Kind::Example;
   }
-  const bool stands = !o.periodic.z && (o.sides[4].kind != SideRule::Kind::Free ||
-                                        o.sides[5].kind != SideRule::Kind::Free);
-  const std::size_t none = code_.size() - 1;
-  const int labels = problem_->network().labels;
-  target_.assign(labels, 0);  // single cells: their labels are their numbers
+  const auto none = static_cast<std::size_t>(labels_);
+  // Single cells: their labels, perhaps at each height, are their numbers.
+  target_.assign(none * (stands_ ? size_.z : 1), 0);
+  std::vector<ColumnRatios> columnsOf;
+  for (const PatchSource& source : sources) columnsOf.emplace_back(source, size_, ends);
   struct Shown {
     std::int32_t block;
     Place place;
@@ -167,15 +168,16 @@ void BlockCounts::countSources(std::span<const PatchSource> sources, const Progr
       const PatchSource& source = sources[s];
       const Vec3i from = source.size - n + Vec3i{1, 1, 1};
       const double times = source.share * frames_ / source.frames;
+      const std::vector<double> ratio = columnsOf[s].of(n, from, places1_[side]);
       const std::int64_t sz = source.frames, sy = sz * source.size.z, sx = sy * source.size.y;
       for (int x = 0; x < from.x; ++x) {
         progress.check();
-        const double wx = times * ratioAlong(x, from.x, places1_[side].x, sides[0]);
         for (int y = 0; y < from.y; ++y) {
-          const double wy = wx * ratioAlong(y, from.y, places1_[side].y, sides[1]);
+          const double wy = times * ratio[static_cast<std::size_t>(x) * from.y + y];
           for (int z = 0; z < from.z; ++z) {
+            if (side == 0 && stands_ && z >= size_.z) break;
             const double wz =
-                stands || source.size.z == size_.z ? wy : wy * places1_[side].z / from.z;
+                stands_ || source.size.z == size_.z ? wy : wy * places1_[side].z / from.z;
             for (int t = 0; t < source.frames; ++t) {
               const std::int64_t at = source.position({x, y, z}, t);
               const Label* lowest = source.labels.data() + at;
@@ -186,13 +188,13 @@ void BlockCounts::countSources(std::span<const PatchSource> sources, const Progr
                   for (int k = 0; k < n.z; ++k) {
                     const Label b = lowest[i * sx + j * sy + k * sz];
                     whole = whole && b < none;
-                    if (whole && !o.weights.empty()) weight = weightOf(weight, o.weights[b]);
+                    if (whole && !o.weights.empty()) weight = strongerWeight(weight, o.weights[b]);
                   }
                 }
               }
               if (!whole) continue;
               const std::int32_t id = side == 0
-                                          ? std::int32_t{*lowest}
+                                          ? single(*lowest, z)
                                           : findOrAdd(side, hashAt(side, source, {x, y, z}, t));
               target_[id] += wz * weight;
               if (side == 2) {
@@ -214,18 +216,24 @@ void BlockCounts::countSources(std::span<const PatchSource> sources, const Progr
   }
   for (std::size_t b = 1; b < placeBegin_.size(); ++b) placeBegin_[b] += placeBegin_[b - 1];
 
-  // More or less air above is as it must be: what is alike all through makes up the number.
-  for (int side = 0; side < kSides && stands; ++side) {
-    double all = 0;
-    const std::size_t last =
-        side + 1 < kSides ? static_cast<std::size_t>(firstOf_[side + 1]) : target_.size();
-    for (std::size_t b = firstOf_[side]; b < last; ++b) all += target_[b];
-    const PatchSource& source = sources[0];
-    const Vec3i corner = source.size - shape_[side];
-    const Label top = source.at(corner, 0);
-    if (source.size.z == size_.z || top >= none) continue;
-    const std::int32_t air =
-        side == 0 ? std::int32_t{top} : find(side, hashAt(side, source, corner, 0));
+  if (stands_) fillUp(sources[0]);
+}
+
+/// More or less air above is as it must be: what is alike all through makes up the number.
+void BlockCounts::fillUp(const PatchSource& source) {
+  const Label top = source.at(source.size - Vec3i{1, 1, 1}, 0);
+  if (source.size.z == size_.z || top >= labels_) return;
+  const double columns = double(size_.x) * size_.y * frames_;
+  for (int z = 0; z < size_.z; ++z) {
+    const auto first = target_.begin() + single(0, z);
+    const double all = std::accumulate(first, first + labels_, 0.0);
+    target_[single(top, z)] += std::max(columns - all, 0.0);
+  }
+  for (int side = 1; side < kSides; ++side) {
+    const auto first = target_.begin() + firstOf_[side];
+    const auto last = side + 1 < kSides ? target_.begin() + firstOf_[side + 1] : target_.end();
+    const double all = std::accumulate(first, last, 0.0);
+    const std::int32_t air = find(side, hashAt(side, source, source.size - shape_[side], 0));
     target_[air] += static_cast<double>(volume(places1_[side])) * frames_ - all;
     target_[air] = std::max(target_[air], 0.0);
   }
@@ -234,8 +242,10 @@ void BlockCounts::countSources(std::span<const PatchSource> sources, const Progr
 void BlockCounts::count(std::span<const Label> grid, const Progress& progress) {
   count_.assign(target_.size(), 0);
   unknown_ = 0;
-  for (const Label b : grid) {
-    if (b + std::size_t{1} < code_.size()) count_[b] += 1;
+  for (std::size_t at = 0; at < grid.size(); ++at) {
+    const Label b = grid[at];
+    if (b < labels_)
+      count_[single(b, static_cast<int>(static_cast<std::int64_t>(at) / frames_ % size_.z))] += 1;
   }
   for (int side = 1; side < kSides; ++side) {
     ids_[side].assign(grid.size(), kUnknown);
@@ -269,14 +279,15 @@ void BlockCounts::look(std::span<const Label> grid, std::span<const Changed> cha
                        Change& change, bool largestOnly) const {
   for (auto& list : change.touched) list.clear();
   if (changed.empty()) return;
-  const std::int32_t none = static_cast<std::int32_t>(code_.size()) - 1;
+  const auto number = [&](Label label, int z) {
+    return label < labels_ ? single(label, z) : kUnknown;
+  };
   Vec3i low = changed[0].cell, high = low;
   int first = changed[0].frame, last = first;
   for (const Changed& c : changed) {
     const std::int64_t at = problem_->position(c.cell, c.frame);
-    const std::int32_t now = grid[at], before = c.before;
-    change.touched[0].push_back({static_cast<std::int32_t>(at), before < none ? before : kUnknown,
-                                 now < none ? now : kUnknown});
+    change.touched[0].push_back(
+        {static_cast<std::int32_t>(at), number(c.before, c.cell.z), number(grid[at], c.cell.z)});
     low = min(low, c.cell);
     high = max(high, c.cell);
     first = std::min(first, c.frame);
@@ -373,18 +384,20 @@ double BlockCounts::estimate(const Change& change) const {
     return std::abs(count_[id] + by - target_[id]) - std::abs(count_[id] - target_[id]);
   };
   double more = 0;
-  for (const auto& list : change.touched) {
-    for (const Touched& t : list) more += shifted(t.before, -1) + shifted(t.now, 1);
+  for (int side = 0; side < kSides; ++side) {
+    double here = 0;
+    for (const Touched& t : change.touched[side]) here += shifted(t.before, -1) + shifted(t.now, 1);
+    more += weightOf(side) * here;
   }
   return more;
 }
 
 double BlockCounts::add(const Change& change) {
   double more = 0;
-  for (const auto& list : change.touched) {
+  for (int side = 0; side < kSides; ++side) {
     double here = 0;
-    for (const Touched& t : list) here += shift(t.before, -1) + shift(t.now, 1);
-    more += here;
+    for (const Touched& t : change.touched[side]) here += shift(t.before, -1) + shift(t.now, 1);
+    more += weightOf(side) * here;
   }
   return more;
 }
@@ -406,7 +419,10 @@ void BlockCounts::keep(const Change& change) {
 
 double BlockCounts::energy() const {
   double sum = unknown_;
-  for (std::size_t b = 0; b < target_.size(); ++b) sum += std::abs(count_[b] - target_[b]);
+  for (std::size_t b = 0; b < target_.size(); ++b) {
+    const bool single = static_cast<std::int32_t>(b) < firstOf_[1];
+    sum += weightOf(single ? 0 : 1) * std::abs(count_[b] - target_[b]);
+  }
   return sum;
 }
 

@@ -17,18 +17,20 @@ namespace exemplar {
 /// How often the example's blocks of 1, 2 and 3 cells a side should occur in a result, and how
 /// often they do: the energy
 ///
-///     E = sum over all blocks of |count in the result - count in the example x ratio|
+///     E = sum over all blocks of weight x |count in the result - count in the example x ratio|
 ///
-/// whose minimum has the example's statistics (Zhu, Liu, Wu: "Exploring texture ensembles by
-/// efficient Markov chain Monte Carlo", PAMI 22(6), 2000, with counts of blocks as the features).
-/// Blocks that the example does not show should not occur at all.
+/// (weights: 3 for single cells, else 1), whose minimum has the example's statistics (Zhu, Liu, Wu:
+/// "Exploring texture ensembles by efficient Markov chain Monte Carlo", PAMI 22(6), 2000, with
+/// counts of blocks as the features). Blocks that the example does not show should not occur at
+/// all.
 ///
-/// `ratio` is that of the places that a block has in the result and in the example, per axis: what
-/// touches a side of the example is expected at that side of the result, once for each place
-/// along it, and the rest in between. What stands on the ground does not become more where there
-/// is more air above; where neither bottom nor top has a rule, or the result tiles along z, it
-/// does. Weights of labels multiply the counts of the blocks that hold them. Along an axis that is
-/// shorter than a block, blocks are that much shorter.
+/// `ratio` is that of the columns in the result and in the example, but for what the example shows
+/// only along its sides, as the ends of a ground: that is expected once for each place along that
+/// side of the result, and the rest in between. What stands on the ground does not become more
+/// where there is more air above, and single cells are counted at each height by itself, for where
+/// things float larger blocks do not say how high; where neither bottom nor top has a rule, or the
+/// result tiles along z, there is more, at any height. Weights of labels multiply the counts of the
+/// blocks that hold them. Along an axis that is shorter than a block, blocks are that much shorter.
 ///
 /// Blocks are known by hashes of 64 bits. Memory: 8 bytes a cell.
 class BlockCounts {
@@ -108,12 +110,16 @@ class BlockCounts {
   std::int32_t findOrAdd(int side, std::uint64_t hash);
   void grow();
   void countSources(std::span<const PatchSource> sources, const Progress& progress);
+  void fillUp(const PatchSource& source);
+  /// The number of a single cell of a label at a height.
+  std::int32_t single(Label label, int z) const { return stands_ ? z * labels_ + label : label; }
   double shift(std::int32_t id, int by);
 
   const ModelProblem* problem_;
   Vec3i size_;
-  int frames_;
+  int frames_, labels_;
   Axes periodic_;
+  bool stands_;                                // whether heights differ
   std::array<Vec3i, kSides> shape_, places1_;  // of a block; how many places it has in the result
   std::vector<std::uint64_t> code_;            // of each label
   // Of each cell of a layer of a block, and of each layer: blocks' hashes are sums of products.

@@ -51,6 +51,7 @@ LabelChooser::LabelChooser(const ModelProblem& problem, std::span<const LabelGri
     own_.push_back(o.weights.empty() || o.metropolis ? 1.0 : o.weights[b]);
     weights_.push_back(frequencies_[b] * own_[b]);
   }
+  countHeights(examples);
   if (neighbors_) {
     countShares();
     countPlaces(examples, progress);
@@ -58,6 +59,22 @@ LabelChooser::LabelChooser(const ModelProblem& problem, std::span<const LabelGri
   if (o.choice == LabelChoice::Resemblance) {
     resemblance_ = std::make_unique<Resemblance>(problem, examples, progress);
   }
+}
+
+void LabelChooser::countHeights(std::span<const LabelGrid> examples) {
+  // All that they are at any height decides only between labels that are not there.
+  std::vector<double> anywhere(problem_->adjacency().frequency.begin(),
+                               problem_->adjacency().frequency.end());
+  double all = 1;
+  for (const double count : anywhere) all += count;
+  for (double& count : anywhere) count /= all;
+  int layers = 1;
+  if (problem_->heightsDiffer())
+    for (const LabelGrid& e : examples) layers = std::max(layers, e.size().z);
+  atHeight_.assign(static_cast<std::size_t>(layers), anywhere);
+  if (layers == 1) return;
+  for (const LabelGrid& e : examples)
+    forEachCell(e.size(), [&](const Vec3i& p) { ++atHeight_[p.z][e.cells[p]]; });
 }
 
 void LabelChooser::countShares() {
@@ -187,10 +204,12 @@ int LabelChooser::choose(const Random& random, int cell, std::span<const LabelWo
   });
 }
 
-int mostFrequentLabel(const Adjacency& adjacency, std::span<const LabelWord> labels) {
+int LabelChooser::mostFrequent(int cell, std::span<const LabelWord> labels) const {
+  const int z = problem_->cellAt(problem_->positionOf(cell)).z;
+  const std::vector<double>& often = atHeight_[std::min<std::size_t>(z, atHeight_.size() - 1)];
   int best = -1;
   forEachLabel(labels, [&](int b) {
-    if (best < 0 || adjacency.frequency[b] > adjacency.frequency[best]) best = b;
+    if (best < 0 || often[b] > often[best]) best = b;
   });
   return best;
 }

@@ -42,6 +42,13 @@ class LabelChooser {
   int choose(const Random& random, int cell, std::span<const LabelWord> labels, int draw,
              const Placed& placed) const;
 
+  /// Of a set of labels for a cell the one that is most frequent in the examples at the cell's
+  /// height, the first of several; -1 where the set is empty. Heights count from the bottom; above
+  /// the examples' uppermost layer it goes on. Of labels that no example shows at that height the
+  /// one that is most frequent at all, and all heights are alike where neither bottom nor top has a
+  /// rule, or the result tiles along z.
+  int mostFrequent(int cell, std::span<const LabelWord> labels) const;
+
  private:
   /// How often a label has the neighbor in question, of all the times that it has one there.
   struct Share {
@@ -55,6 +62,7 @@ class LabelChooser {
     double count;
   };
 
+  void countHeights(std::span<const LabelGrid> examples);
   void countShares();
   void countPlaces(std::span<const LabelGrid> examples, const Progress& progress);
   void weighByNeighbors(int cell, std::span<const LabelWord> labels, const Placed& placed,
@@ -63,15 +71,12 @@ class LabelChooser {
   const ModelProblem* problem_;
   Random random_;
   std::vector<double> own_, frequencies_, weights_;  // the user's; theirs times frequencies
+  std::vector<std::vector<double>> atHeight_;        // how often each label is there
   bool varies_, neighbors_;
   std::vector<std::vector<std::int64_t>> shareBegin_;  // of each slot: of each neighbor's label
   std::vector<std::vector<Share>> shares_;
   std::array<std::vector<Place>, 8> places_;  // by which of the three neighbors count, as bits
   std::unique_ptr<Resemblance> resemblance_;
 };
-
-/// Of a set of labels the one that is most frequent in the examples, the first of several; -1 where
-/// the set is empty.
-int mostFrequentLabel(const Adjacency& adjacency, std::span<const LabelWord> labels);
 
 }  // namespace exemplar

@@ -70,7 +70,7 @@ std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, co
     if (!region.takeBack(all, std::span<const Label>{}, progress)) continue;
     RegionChoice choice{chooser.numbersFor(LabelChooser::Purpose::Start).fork(number)};
     choice.choose = [&](const Random& random, int c, std::span<const LabelWord> set, int draw) {
-      if (plain) return mostFrequentLabel(problem.adjacency(), set);
+      if (plain) return chooser.mostFrequent(tile.members()[c], set);
       return chooser.choose(random, tile.members()[c], set, draw);
     };
     const RegionEffort effort{.passes = 0,

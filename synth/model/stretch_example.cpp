@@ -28,6 +28,9 @@ class PlaneOrder {
   /// Empty where there is none.
   std::vector<int> find(Draws& draws, const Progress& progress) {
     findFollowers();
+    if (axis_ == 2 && problem_.heightsDiffer()) {
+      if (std::vector<int> upright = uprightOrder(); !upright.empty()) return upright;
+    }
     std::vector<int> firsts;
     for (int p = 0; p < planes_; ++p)
       if (allowedAt(p, 0)) firsts.push_back(p);
@@ -43,6 +46,7 @@ class PlaneOrder {
 
  private:
   void findFollowers();
+  std::vector<int> uprightOrder() const;
   void findWaysToEnd(int first);
   std::vector<int> walk(int first, Draws& draws) const;
   bool follows(int p, int q) const { return follows_[p * planes_ + q] != 0; }
@@ -98,6 +102,16 @@ void PlaneOrder::findFollowers() {
       }
     }
   }
+}
+
+/// The layers as they are, the uppermost again and again; empty where that cannot be.
+std::vector<int> PlaneOrder::uprightOrder() const {
+  std::vector<int> order;
+  for (int z = 0; z < length_; ++z) order.push_back(std::min(z, planes_ - 1));
+  for (int z = 1; z < length_; ++z)
+    if (!follows(order[z - 1], order[z])) return {};
+  if (!allowedAt(order.front(), 0) || !allowedAt(order.back(), 1)) return {};
+  return order;
 }
 
 void PlaneOrder::findWaysToEnd(int first) {

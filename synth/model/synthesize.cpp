@@ -19,6 +19,7 @@
 #include "synth/model/problem.h"
 #include "synth/model/quilt_labels.h"
 #include "synth/model/start.h"
+#include "synth/model/start_over_sides.h"
 #include "synth/model/stretch_example.h"
 #include "synth/model/whole.h"
 
@@ -128,7 +129,10 @@ std::optional<std::vector<Label>> startForPatches(
     std::span<const LabelGrid> examples, ModelStatistics& statistics, const Progress& progress) {
   const ModelOptions& options = problem.options();
   if (!takesPatches(options)) return std::nullopt;
-  if (!ends(options) && options.size.z > 1) {
+  const bool overSides = !ends(options) && options.size.z > 1;
+  if (overSides && !canQuilt(options))
+    return startOverSides(problem, base, chooser, examples, statistics, progress);
+  if (overSides) {
     if (auto drawn = stretchExample(problem, base, chooser, examples, progress.part(0, 0.5)))
       return drawn;
   }

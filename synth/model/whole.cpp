@@ -73,9 +73,6 @@ class WholePass {
   }
   Outcome repair(int cell);
   Outcome repairWithin(int cell, int reach);
-  int mostFrequent(std::span<const LabelWord> labels) const {
-    return mostFrequentLabel(problem_.adjacency(), labels);
-  }
 
   const ModelProblem& problem_;
   const LabelNetwork& network_;
@@ -122,7 +119,7 @@ Outcome WholePass::repairWithin(int cell, int reach) {
   // What was there first, and what is most frequent ahead: the solution then changes little, is
   // found soon, and what is ahead is chosen at random later.
   choice.prefer = [&](int c, std::span<const LabelWord> set) {
-    return c < cell ? catalog_.firstLabel(c) : mostFrequent(set);
+    return c < cell ? catalog_.firstLabel(c) : chooser_.mostFrequent(c, set);
   };
   choice.fits = [&] { return region.keep(catalog_, cell); };
   const Outcome outcome = region.relabel(effort, choice, progress_);
@@ -173,7 +170,7 @@ Labeling WholePass::run() {
     if (c % 1024 == 0) progress_.report("labeling", result.share);
     if (catalog_.decided(c)) continue;
     const auto choose = [&](int cell, std::span<const LabelWord> set, int draw) {
-      if (plain_) return mostFrequent(set);
+      if (plain_) return chooser_.mostFrequent(cell, set);
       return chooser_.choose(chooser_.numbersForPass(), cell, set, draw, placed);
     };
     const std::int32_t one[1] = {c};

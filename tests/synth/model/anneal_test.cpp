@@ -67,13 +67,15 @@ ModelOptions sized(const Vec3i& size) {
   return o;
 }
 
-/// Blocks of `side` cells each way, as lists of labels, with their numbers.
+/// Blocks of `side` cells each way, as lists of labels, with their numbers; single cells at each
+/// height by itself.
 std::map<std::vector<Label>, double> blocksOf(const Array3D<Label>& cells, int side) {
   std::map<std::vector<Label>, double> blocks;
   const Vec3i places = cells.size() - Vec3i{side - 1, side - 1, side - 1};
   forEachCell(places, [&](const Vec3i& p) {
     std::vector<Label> labels;
     forEachCell(Vec3i{side, side, side}, [&](const Vec3i& q) { labels.push_back(cells[p + q]); });
+    if (side == 1) labels.push_back(static_cast<Label>(p.z));
     blocks[labels] += 1;
   });
   return blocks;
@@ -106,12 +108,49 @@ TEST(BlockCounts, AreThoseCountedOneByOne) {
     auto shown = blocksOf(result, side);
     const double ratio = double(o.size.x - side + 1) / (example.size().x - side + 1);
     for (const auto& [block, count] : blocksOf(example.cells, side)) {
-      expected += std::abs(shown[block] - count * ratio);
+      expected += (side == 1 ? 3 : 1) * std::abs(shown[block] - count * ratio);
       shown.erase(block);
     }
-    for (const auto& [block, count] : shown) expected += count;
+    for (const auto& [block, count] : shown) expected += (side == 1 ? 3 : 1) * count;
   }
   EXPECT_NEAR(l.energy(), expected, 1e-6 * expected);
+}
+
+/// A ground, with a tower of 2 x 2 x 2 cells at each of `places`.
+LabelGrid towers(const Vec3i& size, const std::vector<Vec3i>& places) {
+  LabelGrid grid = test::drawn({{"g"}, {"t"}, {"."}});  // for the labels' looks
+  const Label ground = grid.cells(0, 0, 0), tower = grid.cells(0, 0, 1), air = grid.cells(0, 0, 2);
+  grid.cells = Array3D<Label>(size, air);
+  forEachCell(size, [&](const Vec3i& p) {
+    if (p.z == 0) grid.cells[p] = ground;
+  });
+  for (const Vec3i& corner : places)
+    forEachCell(Vec3i{2, 2, 2}, [&](const Vec3i& p) { grid.cells[corner + p] = tower; });
+  return grid;
+}
+
+double energyOf(const LabelGrid& example, const LabelGrid& result) {
+  Labeled l(example, sized(result.size()));
+  for (int c = 0; c < l.problem.network().cells; ++c)
+    l.labels[c] = result.cells[l.problem.cellAt(l.problem.positionOf(c))];
+  return l.energy();
+}
+
+TEST(BlockCounts, AsManyObjectsAreWantedForEachColumnAsInTheExample) {
+  // Sides cut off less of a larger result, so there are more than four times as many places for
+  // blocks of 3 cells: they are for ground.
+  const LabelGrid example = towers({8, 8, 5}, {{3, 3, 1}});
+  std::vector<Vec3i> four{{3, 3, 1}, {3, 11, 1}, {11, 3, 1}, {11, 11, 1}};
+  const Vec3i size{16, 16, 5};
+  EXPECT_NEAR(energyOf(example, towers(size, four)), 0, 1e-9);
+  four.push_back({7, 7, 1});
+  EXPECT_GT(energyOf(example, towers(size, four)), 50);
+}
+
+TEST(BlockCounts, HeightsOfWhatFloatsAreWanted) {
+  const LabelGrid example = towers({10, 10, 12}, {{3, 3, 4}});
+  // All blocks are alike, and 8 cells stand where they should not.
+  EXPECT_NEAR(energyOf(example, towers({10, 10, 12}, {{3, 3, 7}})), 3.0 * 8 * 4, 1e-9);
 }
 
 TEST(BlockCounts, ChangesAddUpAndCanBeTakenOut) {

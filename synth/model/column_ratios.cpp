@@ -1,0 +1,103 @@
+// exemplar: give it one example; get as much more of it as you want.
+// Copyright (c) 2026 The exemplar authors. SPDX-License-Identifier: MIT
+
+#include "synth/model/column_ratios.h"
+
+#include <algorithm>
+#include <map>
+#include <unordered_set>
+
+namespace exemplar {
+
+ColumnRatios::ColumnRatios(const PatchSource& source, const Vec3i& size,
+                           const std::array<bool, 2>& ends)
+    : source_(&source), ends_(ends) {
+  const Vec3i n = source.size;
+  for (int x = 0; x < n.x; ++x) {
+    for (int y = 0; y < n.y; ++y) {
+      const Label* first = source.labels.data() + source.position({x, y, 0}, 0);
+      columns_.emplace_back(first, first + static_cast<std::size_t>(n.z) * source.frames);
+    }
+  }
+  findColumnsOfSides();
+  single_ = share({1, 1, 1}, n, size).each;
+}
+
+void ColumnRatios::findColumnsOfSides() {
+  const Vec3i n = source_->size;
+  std::unordered_set<std::u16string> inside;
+  for (int x = 0; x < n.x; ++x) {
+    for (int y = 0; y < n.y; ++y)
+      if (!onRing(0, x) && !onRing(1, y)) inside.insert(columns_[column(x, y)]);
+  }
+  for (int x = 0; x < n.x; ++x) {
+    for (int y = 0; y < n.y; ++y)
+      ofSide_.push_back((onRing(0, x) || onRing(1, y)) && !inside.contains(columns_[column(x, y)]));
+  }
+}
+
+ColumnRatios::Shares ColumnRatios::share(const Vec3i& wide, const Vec3i& from,
+                                         const Vec3i& to) const {
+  std::array<bool, 2> sides{};
+  for (int axis = 0; axis < 2; ++axis)
+    sides[axis] = ends_[axis] && from[axis] >= 3 && to[axis] >= 3;
+  const auto onSide = [&](int axis, int at) {
+    return sides[axis] && (at == 0 || at == from[axis] - 1);
+  };
+  const auto along = [&](int axis, int at) {
+    if (!sides[axis]) return double(to[axis]) / from[axis];
+    return onSide(axis, at) ? 1 : double(to[axis] - 2) / (from[axis] - 2);
+  };
+  Shares all;
+  all.left = double(to.x) * to.y;
+  for (int x = 0; x < from.x; ++x) {
+    for (int y = 0; y < from.y; ++y) {
+      bool ofSide = false;
+      for (int i = x; i < x + wide.x && (onSide(0, x) || onSide(1, y)); ++i) {
+        for (int j = y; j < y + wide.y; ++j) ofSide = ofSide || ofSide_[column(i, j)];
+      }
+      all.ratio.push_back(ofSide ? along(0, x) * along(1, y) : 0);
+      all.left -= all.ratio.back();
+      if (!ofSide) all.others.push_back(x * from.y + y);
+    }
+  }
+  if (!all.others.empty())
+    all.each = std::max(all.left, 0.0) / static_cast<double>(all.others.size());
+  for (const int place : all.others) all.ratio[place] = all.each;
+  return all;
+}
+
+/// Where blocks of equal columns begin, of those columns of which there are most such blocks.
+std::vector<int> ColumnRatios::groundBlocks(const Vec3i& wide, const Vec3i& from) const {
+  std::map<std::u16string, std::vector<int>> alike;
+  for (int x = 0; x < from.x; ++x) {
+    for (int y = 0; y < from.y; ++y) {
+      const std::u16string& first = columns_[column(x, y)];
+      bool same = true;
+      for (int i = x; i < x + wide.x; ++i) {
+        for (int j = y; j < y + wide.y; ++j) same = same && columns_[column(i, j)] == first;
+      }
+      if (same) alike[first].push_back(x * from.y + y);
+    }
+  }
+  std::vector<int> most;
+  for (auto& [labels, places] : alike)
+    if (places.size() > most.size()) most = std::move(places);
+  return most;
+}
+
+std::vector<double> ColumnRatios::of(const Vec3i& wide, const Vec3i& from, const Vec3i& to) const {
+  Shares all = share(wide, from, to);
+  if (wide.x * wide.y == 1 || !ends_[0] || !ends_[1]) return std::move(all.ratio);
+  const std::vector<int> ground = groundBlocks(wide, from);
+  if (ground.empty()) return std::move(all.ratio);
+  for (const int place : all.others) all.ratio[place] = single_;
+  const double remains = all.left - single_ * static_cast<double>(all.others.size());
+  for (const int place : ground) {
+    double& ratio = all.ratio[place];
+    ratio = std::max(0.0, ratio + remains / static_cast<double>(ground.size()));
+  }
+  return std::move(all.ratio);
+}
+
+}  // namespace exemplar
