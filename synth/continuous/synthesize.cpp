@@ -288,7 +288,7 @@ class Synthesis {
     Puzzle pilot = makePuzzle(small, puzzle.figures, example_.ground);
     const std::vector<std::uint32_t> vertices = innerVertices(small);
     restrictThin(pilot, vertices);
-    Search::Marks marks(small.vertices());
+    Search::Marks marks(pilot);
     const std::vector<double> equal(puzzle.figures.size(), 1);
     Search search(pilot, equal, pilot.domains, marks);
     search.begin(vertices, 1);
@@ -329,7 +329,7 @@ class Synthesis {
   void solve(Puzzle& puzzle, Domains& open, const std::vector<std::vector<Allowed>>& demands,
              const Progress& progress) {
     weights_.assign(puzzle.figures.size(), 1);
-    Search::Marks marks(puzzle.arrangement.vertices());
+    Search::Marks marks(puzzle);
     Search search(puzzle, weights_, puzzle.domains, marks);
     ContinuousStatistics& s = result_.statistics;
     if (!search.begin(vertices_, 1)) return explain(puzzle, open, demands);
@@ -452,7 +452,7 @@ class Synthesis {
     result_.outcome = Outcome::Impossible;
     result_.why = "impossible: nothing meets what is required";
     Puzzle free{puzzle.arrangement, puzzle.figures, puzzle.classes, open, puzzle.background};
-    Search::Marks marks(puzzle.arrangement.vertices());
+    Search::Marks marks(puzzle);
     Search search(free, weights_, free.domains, marks);
     if (!search.begin(vertices_, 1)) return;
     ++result_.statistics.exact;

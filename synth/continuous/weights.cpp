@@ -104,7 +104,7 @@ std::vector<double> learnWeights(const Puzzle& puzzle, const Domains& consistent
   std::vector<double> best = weighted(classes, counts, factors), weights = best;
   double nearest = std::numeric_limits<double>::infinity();
   Domains domains = consistent;
-  Search::Marks marks(puzzle.arrangement.vertices());
+  Search::Marks marks(puzzle);
   for (int round = 0; round < options.rounds; ++round) {
     progress.report("learning weights", static_cast<double>(round) / options.rounds);
     std::vector<double> made(counts.size());
