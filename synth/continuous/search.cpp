@@ -295,6 +295,14 @@ std::optional<Found> Search::backtrack(std::int64_t failuresAllowed, std::size_t
   }
 }
 
+/// Takes back all but the first choices, which is a failure of the last ones.
+void Search::takeBackTo(std::size_t choices) {
+  if (choices >= choices_.size()) return;
+  ++counts_.failures;
+  undo(choices_[choices].trail);
+  choices_.resize(choices);
+}
+
 Found Search::run(const Random& random, std::int64_t budget, const Progress& progress) {
   const std::size_t start = trailVertices_.size();
   std::size_t place = 0, reported = 0;

@@ -147,6 +147,7 @@ class Search {
   std::size_t choose(std::uint32_t v, const Random& random);
   double weight(std::uint32_t v, std::uint32_t figure) const;
   bool assign(const Choice& choice);
+  void takeBackTo(std::size_t choices);
   std::optional<Found> backtrack(std::int64_t failuresAllowed, std::size_t start);
 
   const Puzzle& puzzle_;

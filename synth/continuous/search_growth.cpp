@@ -14,6 +14,10 @@ namespace {
 constexpr int kSeedDraws = 64;
 /// Choices between two counts of what is built.
 constexpr int kRecount = 64;
+/// How often a result that has closed too early is opened again, and which share of what should
+/// grow is enough.
+constexpr int kReopenings = 40;
+constexpr double kFullyGrown = 0.9;
 
 }  // namespace
 
@@ -42,7 +46,11 @@ Growth growthOf(const Puzzle& puzzle, std::optional<Substance> ground) {
 class Grower {
  public:
   Grower(Search& search, const Growth& growth, const Random& random)
-      : search_(search), growth_(growth), random_(random), start_(search.trailVertices_.size()) {}
+      : search_(search),
+        growth_(growth),
+        random_(random),
+        start_(search.trailVertices_.size()),
+        onFrontier_(search.puzzle_.arrangement.vertices()) {}
 
   Found run(std::int64_t budget, const Progress& progress) {
     const std::int64_t failuresAllowed = search_.counts_.failures + budget;
@@ -56,6 +64,7 @@ class Grower {
       }
       std::optional<Choice> choice = onFrontier();
       if (!choice) choice = seed();
+      if (!choice && reopen()) continue;
       if (!choice) choice = rest();
       if (!choice) return Found::All;
       choice->trail = search_.trailVertices_.size();
@@ -93,9 +102,24 @@ class Grower {
   }
   void addNeighbors(std::uint32_t v) {
     for (const EdgeEnd& end : arrangement().ends(v)) {
-      if (end.vertex != EdgeEnd::kNone && arrangement().inside(end.vertex))
-        frontier_.push_back(end.vertex);
+      if (end.vertex != EdgeEnd::kNone && arrangement().inside(end.vertex)) add(end.vertex);
     }
+  }
+  void add(std::uint32_t v) {
+    if (onFrontier_[v]) return;
+    onFrontier_[v] = 1;
+    frontier_.push_back(v);
+  }
+  /// Takes back choices by `undo`; what that frees comes back to the frontier.
+  template <class Undo>
+  auto takingBack(Undo&& undo) {
+    undone_.clear();
+    search_.undone_ = &undone_;
+    const auto result = undo();
+    search_.undone_ = nullptr;
+    for (const std::uint32_t v : undone_) add(v);
+    seeds_ = search_.choices_.empty() ? 0 : search_.choices_.back().seeds;
+    return result;
   }
   /// Adds what is next to something that has changed.
   void follow(std::size_t trail) {
@@ -130,6 +154,7 @@ class Grower {
       const std::uint32_t v = frontier_[n];
       frontier_[n] = frontier_.back();
       frontier_.pop_back();
+      onFrontier_[v] = 0;
       if (!isNext(v)) continue;
       return Choice{0, share_ < growth_.share ? search_.choose(v, random_) : emptiest(v), 0, v};
     }
@@ -158,6 +183,20 @@ class Grower {
     return std::nullopt;
   }
 
+  /// Undoes some of the last choices where nothing can grow any more and too little has grown.
+  bool reopen() {
+    if (reopened_ >= kReopenings || place_ > 0 || search_.choices_.size() < 2) return false;
+    share_ = builtShare();
+    if (share_ >= kFullyGrown * growth_.share) return false;
+    ++reopened_;
+    const auto choices = static_cast<std::uint32_t>(search_.choices_.size());
+    const std::uint32_t kept = choices / 2 + random_.below((choices + 1) / 2, draw_++, 4);
+    return takingBack([&] {
+      search_.takeBackTo(kept);
+      return true;
+    });
+  }
+
   /// The next undecided vertex, as empty as it can be.
   std::optional<Choice> rest() {
     const std::span<const std::uint32_t> vertices = search_.vertices_;
@@ -166,13 +205,11 @@ class Grower {
     return Choice{0, emptiest(vertices[place_]), 0, vertices[place_]};
   }
 
-  /// Undoes a choice that failed; what that frees comes back to the frontier.
+  /// Undoes a choice that failed.
   std::optional<Found> takeBack(std::int64_t failuresAllowed) {
-    search_.undone_ = &frontier_;
-    const std::optional<Found> end = search_.backtrack(failuresAllowed, start_);
-    search_.undone_ = nullptr;
-    if (end) return end;
-    seeds_ = search_.choices_.empty() ? 0 : search_.choices_.back().seeds;
+    if (const std::optional<Found> end =
+            takingBack([&] { return search_.backtrack(failuresAllowed, start_); }))
+      return end;
     follow(search_.choices_.empty() ? start_ : search_.choices_.back().trail);
     place_ = 0;
     return std::nullopt;
@@ -183,10 +220,12 @@ class Grower {
   Search& search_;
   const Growth& growth_;
   const Random& random_;
-  std::size_t start_;                    // of the trail
-  std::vector<std::uint32_t> frontier_;  // next to something built, or were that before
+  std::size_t start_;                     // of the trail
+  std::vector<std::uint32_t> frontier_;   // next to something built, or were that before
+  std::vector<std::uint8_t> onFrontier_;  // of vertices: whether they are there
+  std::vector<std::uint32_t> undone_;     // scratch
   std::uint64_t draw_ = 0;
-  int seeds_ = 0;
+  int seeds_ = 0, reopened_ = 0;
   double share_ = 0;       // of the vertices that are built
   std::size_t place_ = 0;  // in the vertices; those before are decided
 };
