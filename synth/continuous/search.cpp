@@ -173,9 +173,10 @@ bool Search::propagate() {
     Word* edges = edgesOf(v);
     changed_.clear();
     for (std::uint32_t r = 0; r < rays; ++r) {
-      if (!std::equal(row_.data() + rows.start(r), row_.data() + rows.start(r + 1),
-                      edges + rows.start(r)))
-        changed_.push_back(r);
+      Word change = 0;
+      for (std::uint32_t w = rows.start(r); w < rows.start(r + 1); ++w)
+        change |= row_[w] ^ edges[w];
+      if (change != 0) changed_.push_back(r);
     }
     std::copy_n(row_.data(), rows.words(), edges);
     for (const std::uint32_t r : changed_)

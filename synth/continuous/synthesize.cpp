@@ -369,14 +369,17 @@ class Synthesis {
     double nearest = 0;
     std::pair<std::int64_t, std::int64_t> pieces;  // of the best: floating ones, groups
     int made = 0, spent = 0, quick = budget > kQuickBudget ? kQuickAttempts : 0;
-    while (made < wanted && (quick > 0 || (made == 0 && spent < options_.attempts))) {
+    // What is nearly empty, or far too full, is quickly made again.
+    const auto enough = [&] { return made >= (nearest > kFar ? 3 * wanted : wanted); };
+    while (!enough() && (quick > 0 || (made == 0 && spent < options_.attempts))) {
       if (s.attempts > 0) {
         puzzle.domains = consistent;
         search.begin(vertices_, ++region);
       }
       const Random random = random_.fork(static_cast<std::uint64_t>(s.attempts++));
       const double share = 1.0 / (kQuickAttempts + options_.attempts + wanted);
-      const Progress part = progress.part(share * (s.attempts - 1), share * s.attempts);
+      const Progress part =
+          progress.part(std::min(1.0, share * (s.attempts - 1)), std::min(1.0, share * s.attempts));
       const std::int64_t failures = quick > 0 ? kQuickBudget : budget;
       const Found found = growth_ ? search.grow(*growth_, random, failures, part)
                                   : search.run(random, failures, part);
@@ -522,9 +525,9 @@ class Synthesis {
   static constexpr std::int64_t kConflicts = 300'000;
   /// Results of which the nearest to the wanted shares is taken, and how near is near enough.
   static constexpr int kResults = 4;
-  static constexpr double kNear = 1.4;
+  static constexpr double kNear = 1.4, kFar = 4;
   /// Attempts of few failures before the long ones: most results need none, or a great many.
-  static constexpr int kQuickAttempts = 6;
+  static constexpr int kQuickAttempts = 12;
   static constexpr std::int64_t kQuickBudget = 200;
   /// Spacings beyond an open side: enough that its end has no influence on what is there.
   static constexpr std::int64_t kMargin = 3;

@@ -19,8 +19,11 @@ constexpr double kSmallShare = 0.005;
 /// The share of a class that the example's own planes do not show at all (no vertex is in the
 /// middle of a face, say), above which it is held back.
 constexpr double kUnseenShare = 0.02;
-/// Trial results of a round, whose shares are averaged.
+/// Trial results of a round, whose shares are averaged: a large one varies less by chance.
 constexpr int kTrials = 2;
+constexpr std::size_t kLargeTrial = 20'000;  // vertices, of which one is enough
+/// Shares that are this near to those wanted need no further round.
+constexpr double kLearned = 1.2;
 
 bool isEmpty(const Figure& figure, const std::optional<Ground>& ground) {
   if (figure == Figure{0, {kAir}}) return true;
@@ -127,15 +130,16 @@ void learnWeights(ClassWeights& weights, const Puzzle& puzzle, const Domains& co
   double nearest = std::numeric_limits<double>::infinity();
   Domains domains = consistent;
   Search::Marks marks(puzzle);
-  for (int round = 0; round < options.rounds; ++round) {
+  const int trials = vertices.size() > kLargeTrial ? 1 : kTrials;
+  for (int round = 0; round < options.rounds && nearest > kLearned; ++round) {
     progress.report("learning weights", static_cast<double>(round) / options.rounds);
     const std::vector<double> current = weights.weights();
     Shares shares{};
     int succeeded = 0;
-    for (int trial = 0; trial < kTrials; ++trial) {
+    for (int trial = 0; trial < trials; ++trial) {
       domains = consistent;
       Search search(puzzle, current, domains, marks);
-      const auto number = static_cast<std::uint64_t>(round * kTrials + trial);
+      const auto number = static_cast<std::uint64_t>(round * trials + trial);
       if (!search.begin(vertices, static_cast<std::uint32_t>(number) + 1)) continue;
       const auto budget = 100 + static_cast<std::int64_t>(vertices.size()) / 50;
       const Random draws = random.fork(500 + number);
