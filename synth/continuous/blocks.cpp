@@ -96,7 +96,7 @@ BlockCounts modifyInBlocks(const Puzzle& puzzle, std::span<const double> weights
         std::max<std::int64_t>(options.spacing[axis] * ((options.side + 1) / 2), least + 1);
   }
   BlockCounts counts;
-  Search::Marks marks(a.vertices());
+  Search::Marks marks(puzzle);
   std::uint32_t region = 0;
   for (int round = 0; round < options.rounds; ++round) {
     // Each round's blocks begin elsewhere.

@@ -46,10 +46,67 @@ VertexClass makeClass(const Central& central, const Centrals& centrals, const Fi
     }
     made.rays.push_back(std::move(along));
   }
+  std::vector<std::vector<std::uint32_t>> edgeOf;
+  std::vector<int> edges;
+  for (const VertexClass::Along& along : made.rays) {
+    edgeOf.push_back(along.edgeOf);
+    edges.push_back(along.edges);
+  }
+  made.edgeRows = EdgeRows(edgeOf, edges, made.labels());
   return made;
 }
 
 }  // namespace
+
+EdgeRows::EdgeRows(const std::vector<std::vector<std::uint32_t>>& edgeOf,
+                   const std::vector<int>& edges, std::size_t labels)
+    : start_{0} {
+  for (const int n : edges)
+    start_.push_back(start_.back() + static_cast<std::uint32_t>(n + 63) / 64);
+  const std::size_t width = words();
+  std::vector<Word> single(labels * width);
+  for (std::size_t ray = 0; ray < edgeOf.size(); ++ray) {
+    for (std::size_t l = 0; l < labels; ++l)
+      insert({single.data() + l * width + start_[ray], width - start_[ray]}, edgeOf[ray][l]);
+  }
+  const std::size_t fours = (labels + 3) / 4;
+  fours_ = fours * 16 * width * sizeof(Word) <= kMostTable;
+  if (!fours_) {
+    rows_ = std::move(single);
+    return;
+  }
+  rows_.resize(fours * 16 * width);
+  for (std::size_t four = 0; four < fours; ++four) {
+    for (std::size_t set = 1; set < 16; ++set) {
+      Word* row = rows_.data() + (four * 16 + set) * width;
+      for (std::size_t n = 0; n < 4 && four * 4 + n < labels; ++n) {
+        if ((set >> n & 1) == 0) continue;
+        const Word* one = single.data() + (four * 4 + n) * width;
+        for (std::size_t w = 0; w < width; ++w) row[w] |= one[w];
+      }
+    }
+  }
+}
+
+void EdgeRows::of(std::span<const Word> labels, Word* row) const {
+  const std::size_t width = words();
+  std::fill(row, row + width, 0);
+  const auto unite = [&](std::size_t at) {
+    const Word* from = rows_.data() + at * width;
+    for (std::size_t w = 0; w < width; ++w) row[w] |= from[w];
+  };
+  if (!fours_) {
+    forEach(labels, unite);
+    return;
+  }
+  for (std::size_t w = 0; w < labels.size(); ++w) {
+    for (Word rest = labels[w]; rest != 0;) {
+      const int four = std::countr_zero(rest) / 4;
+      unite((w * 16 + static_cast<std::size_t>(four)) * 16 + (rest >> (4 * four) & 15));
+      rest &= ~(Word{15} << (4 * four));
+    }
+  }
+}
 
 int VertexClass::labelOf(std::uint32_t figure) const {
   const auto found = std::ranges::lower_bound(figures, figure);

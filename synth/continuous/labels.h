@@ -18,6 +18,29 @@ namespace exemplar::continuous {
 /// Sets of labels as words, 64 labels each.
 using Word = std::uint64_t;
 
+/// The edge labels along all rays of a vertex that a set of labels leaves, by tables: a row of
+/// words, some for each ray in turn.
+class EdgeRows {
+ public:
+  EdgeRows() = default;
+  /// `edgeOf[ray][label]` of `edges[ray]` edge labels. Takes at most `kMostTable` bytes for tables
+  /// of four labels each, else a row for each label.
+  EdgeRows(const std::vector<std::vector<std::uint32_t>>& edgeOf, const std::vector<int>& edges,
+           std::size_t labels);
+
+  /// Words of a row, and where the set of a ray begins; `start(rays)` is their number.
+  std::size_t words() const { return start_.empty() ? 0 : start_.back(); }
+  std::uint32_t start(std::uint32_t ray) const { return start_[ray]; }
+  /// Writes the row of a set of labels.
+  void of(std::span<const Word> labels, Word* row) const;
+
+ private:
+  static constexpr std::size_t kMostTable = std::size_t{1} << 19;
+  std::vector<std::uint32_t> start_;
+  bool fours_ = false;
+  std::vector<Word> rows_;  // for each four labels their 16 subsets' rows, or one for each label
+};
+
 /// What vertices through which the same families go can look like (thesis, sections 4.5.2, 4.5.4
 /// and 4.5.5). Since a label says what every edge at the vertex looks like, two vertices agree
 /// along an edge where their labels give it the same edge label; no table of pairs is needed.
@@ -34,6 +57,7 @@ struct VertexClass {
     int edges = 0;                 ///< how many edge labels the line has
   };
   std::vector<Along> rays;
+  EdgeRows edgeRows;
 
   std::size_t labels() const { return figures.size(); }
   std::span<const Substance> cells(std::size_t label) const {
@@ -69,6 +93,22 @@ inline int count(std::span<const Word> set) {
   int n = 0;
   for (const Word w : set) n += std::popcount(w);
   return n;
+}
+/// Whether a set has exactly one label.
+inline bool hasOne(std::span<const Word> set) {
+  Word one = 0;
+  for (const Word w : set) {
+    if (w == 0) continue;
+    if (one != 0 || (w & (w - 1)) != 0) return false;
+    one = w;
+  }
+  return one != 0;
+}
+/// The lowest label of a set that has some.
+inline std::size_t lowest(std::span<const Word> set) {
+  std::size_t w = 0;
+  while (set[w] == 0) ++w;
+  return w * 64 + static_cast<std::size_t>(std::countr_zero(set[w]));
 }
 /// Calls `body(label)` for each label of a set, ascending.
 template <class Body>

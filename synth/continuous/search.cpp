@@ -4,7 +4,6 @@
 #include "synth/continuous/search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -12,8 +11,6 @@
 
 namespace exemplar::continuous {
 namespace {
-
-constexpr std::size_t kEdgeWords = kMostEdgeLabels / 64;
 
 /// A number for a vertex that depends only on where it is.
 std::uint64_t placeOf(const ExactPoint& p) {
@@ -69,6 +66,29 @@ Puzzle makePuzzle(const Arrangement& arrangement, const FigureSet& figures,
   return puzzle;
 }
 
+Search::Marks::Marks(const Puzzle& puzzle)
+    : region(puzzle.arrangement.vertices()), saved(region.size()), queued(region.size()) {
+  firstEdge.reserve(region.size() + 1);
+  firstEdge.push_back(0);
+  for (std::uint32_t v = 0; v < region.size(); ++v)
+    firstEdge.push_back(firstEdge.back() + puzzle.classOf(v).edgeRows.words());
+  edges.resize(firstEdge.back());
+}
+
+Search::Search(const Puzzle& puzzle, std::span<const double> weights, Domains& domains,
+               Marks& marks)
+    : puzzle_(puzzle), weights_(weights), domains_(domains), marks_(marks), kept_(domains.words()) {
+  std::size_t widest = 0;
+  for (const VertexClass& c : puzzle.classes) widest = std::max(widest, c.edgeRows.words());
+  row_.resize(widest);
+}
+
+void Search::rowOf(std::uint32_t v, Word* row) const {
+  const std::span<const Word> domain = domains_[v];
+  const VertexClass& c = puzzle_.classOf(v);
+  c.edgeRows.of(domain.first(static_cast<std::size_t>(c.words)), row);
+}
+
 void Search::enqueue(std::uint32_t v) {
   if (marks_.queued[v]) return;
   marks_.queued[v] = 1;
@@ -91,95 +111,89 @@ void Search::undo(std::size_t trail) {
   while (trailVertices_.size() > trail) {
     const std::uint32_t v = trailVertices_.back();
     trailVertices_.pop_back();
-    const std::span<Word> domain = domains_[v];
-    std::copy(trailWords_.end() - static_cast<std::ptrdiff_t>(words), trailWords_.end(),
-              domain.begin());
-    trailWords_.resize(trailWords_.size() - words);
+    const std::size_t from = trailWords_.size() - words;
+    std::copy_n(trailWords_.data() + from, words, domains_[v].begin());
+    trailWords_.resize(from);
+    rowOf(v, edgesOf(v));
     marks_.saved[v] = 0;
+    if (undone_) undone_->push_back(v);
   }
 }
 
-void Search::edgesOf(std::uint32_t v, std::uint32_t ray, Word* edges) const {
-  const VertexClass& c = puzzle_.classOf(v);
-  const VertexClass::Along& along = c.rays[ray];
-  const Word* domain = domains_[v].data();
-  const Word* mask = along.labelsWith.data();
-  for (int w = 0; w <= (along.edges - 1) / 64; ++w) edges[w] = 0;
-  if (c.words == 1) {
-    const Word d = domain[0];
-    for (int e = 0; e < along.edges; ++e)
-      edges[e / 64] |= static_cast<Word>((mask[e] & d) != 0) << (e % 64);
-    return;
-  }
-  for (int e = 0; e < along.edges; ++e, mask += c.words) {
-    Word any = 0;
-    for (int w = 0; w < c.words; ++w) any |= mask[w] & domain[w];
-    edges[e / 64] |= static_cast<Word>(any != 0) << (e % 64);
-  }
-}
-
+/// Takes the labels of `v` that have an edge label outside of `edges` along a ray; `edges` are
+/// words of edge labels, as in the row of `v`. False where none is left.
 bool Search::narrow(std::uint32_t v, std::uint32_t ray, const Word* edges) {
   const VertexClass& c = puzzle_.classOf(v);
-  const VertexClass::Along& along = c.rays[ray];
-  const std::span<Word> domain = domains_[v];
   const auto words = static_cast<std::size_t>(c.words);
-  std::array<Word, 64> keptHere;
-  std::vector<Word> keptLong;
-  Word* kept = keptHere.data();
-  if (words > keptHere.size()) {
-    keptLong.resize(words);
-    kept = keptLong.data();
-  }
-  std::fill(kept, kept + words, 0);
-  for (int e = 0; e < along.edges; e += 64) {
-    for (Word rest = edges[e / 64]; rest != 0; rest &= rest - 1) {
+  const EdgeRows& rows = c.edgeRows;
+  const Word* own = edgesOf(v) + rows.start(ray);
+  const std::uint32_t edgeWords = rows.start(ray + 1) - rows.start(ray);
+  const Word* labelsWith = c.rays[ray].labelsWith.data();
+  const std::span<Word> domain = domains_[v];
+  bool narrows = false;
+  for (std::uint32_t e = 0; e < edgeWords; ++e) {
+    for (Word gone = own[e] & ~edges[e]; gone != 0; gone &= gone - 1) {
       const Word* mask =
-          along.labelsWith.data() + static_cast<std::size_t>(e + std::countr_zero(rest)) * words;
-      for (std::size_t w = 0; w < words; ++w) kept[w] |= mask[w];
+          labelsWith + (e * 64 + static_cast<std::size_t>(std::countr_zero(gone))) * words;
+      if (!narrows) std::copy_n(domain.begin(), words, kept_.begin());
+      narrows = true;
+      for (std::size_t w = 0; w < words; ++w) kept_[w] &= ~mask[w];
     }
   }
+  if (!narrows) return true;
   Word changed = 0, left = 0;
   for (std::size_t w = 0; w < words; ++w) {
-    kept[w] &= domain[w];
-    changed |= kept[w] ^ domain[w];
-    left |= kept[w];
+    changed |= kept_[w] ^ domain[w];
+    left |= kept_[w];
   }
   if (changed == 0) return true;
-  set(v, kept);
+  set(v, kept_.data());
   if (left == 0) return false;
   enqueue(v);
   return true;
 }
 
+/// Has the other end of an edge follow what this one leaves along it.
+bool Search::tellAlong(std::uint32_t v, std::uint32_t ray) {
+  const EdgeEnd& end = puzzle_.arrangement.ends(v)[ray];
+  if (end.vertex == EdgeEnd::kNone || marks_.region[end.vertex] != region_) return true;
+  return narrow(end.vertex, end.ray, edgesOf(v) + rowsOf(v).start(ray));
+}
+
 bool Search::propagate() {
-  std::array<Word, kEdgeWords> edges;
   bool consistent = true;
   // First in, first out: what is near is settled before what follows from it.
   for (std::size_t head = 0; head < queue_.size(); ++head) {
     const std::uint32_t v = queue_[head];
     marks_.queued[v] = 0;
     if (!consistent) continue;
-    const std::span<const EdgeEnd> ends = puzzle_.arrangement.ends(v);
-    for (std::uint32_t r = 0; r < ends.size() && consistent; ++r) {
-      const EdgeEnd& end = ends[r];
-      if (end.vertex == EdgeEnd::kNone || marks_.region[end.vertex] != region_) continue;
-      edgesOf(v, r, edges.data());
-      consistent = narrow(end.vertex, end.ray, edges.data());
+    const EdgeRows& rows = rowsOf(v);
+    const auto rays = static_cast<std::uint32_t>(puzzle_.arrangement.ends(v).size());
+    rowOf(v, row_.data());
+    Word* edges = edgesOf(v);
+    changed_.clear();
+    for (std::uint32_t r = 0; r < rays; ++r) {
+      Word change = 0;
+      for (std::uint32_t w = rows.start(r); w < rows.start(r + 1); ++w)
+        change |= row_[w] ^ edges[w];
+      if (change != 0) changed_.push_back(r);
     }
+    std::copy_n(row_.data(), rows.words(), edges);
+    for (const std::uint32_t r : changed_)
+      if (consistent) consistent = tellAlong(v, r);
   }
   queue_.clear();
   return consistent;
 }
 
 bool Search::restrictByBorder(std::uint32_t v) {
-  std::array<Word, kEdgeWords> edges;
   const std::span<const EdgeEnd> ends = puzzle_.arrangement.ends(v);
   for (std::uint32_t r = 0; r < ends.size(); ++r) {
     const std::uint32_t w = ends[r].vertex;
     if (w == EdgeEnd::kNone || !puzzle_.arrangement.inside(w) || marks_.region[w] == region_)
       continue;
-    edgesOf(w, ends[r].ray, edges.data());
-    if (!narrow(v, r, edges.data())) return false;
+    rowOf(w, row_.data());
+    if (!narrow(v, r, row_.data() + rowsOf(w).start(ends[r].ray))) return false;
   }
   return true;
 }
@@ -196,12 +210,13 @@ bool Search::begin(std::span<const std::uint32_t> vertices, std::uint32_t region
     marks_.region[v] = region_;
     marks_.saved[v] = 0;
     marks_.queued[v] = 0;
+    rowOf(v, edgesOf(v));
   }
   bool consistent = true;
   for (const std::uint32_t v : vertices_) {
-    consistent = consistent && restrictByBorder(v);
-    if (consistent && count(domains_[v]) == 0) consistent = false;
-    enqueue(v);
+    consistent = consistent && restrictByBorder(v) && count(domains_[v]) > 0;
+    const auto rays = static_cast<std::uint32_t>(puzzle_.arrangement.ends(v).size());
+    for (std::uint32_t r = 0; r < rays && consistent; ++r) consistent = tellAlong(v, r);
   }
   if (!consistent) {
     for (const std::uint32_t v : queue_) marks_.queued[v] = 0;
@@ -247,9 +262,9 @@ bool Search::assign(const Choice& choice) {
   choices_.push_back(choice);
   ++counts_.choices;
   ++epoch_;
-  std::vector<Word> labels(domains_.words());
-  insert(labels, choice.label);
-  set(choice.vertex, labels.data());
+  std::ranges::fill(kept_, 0);
+  insert(kept_, choice.label);
+  set(choice.vertex, kept_.data());
   enqueue(choice.vertex);
   return propagate();
 }
@@ -257,7 +272,6 @@ bool Search::assign(const Choice& choice) {
 /// After a choice that failed: undoes it and removes its label, and so on while that fails, too.
 /// The last of `choices_` that is left is the one before. Returns how the search ends, if it does.
 std::optional<Found> Search::backtrack(std::int64_t failuresAllowed, std::size_t start) {
-  std::vector<Word> labels(domains_.words());
   while (true) {
     ++counts_.failures;
     if (choices_.empty()) {
@@ -273,14 +287,21 @@ std::optional<Found> Search::backtrack(std::int64_t failuresAllowed, std::size_t
     choices_.pop_back();
     undo(last.trail);
     ++epoch_;
-    const std::span<const Word> domain = domains_[last.vertex];
-    std::ranges::copy(domain, labels.begin());
-    erase(labels, last.label);
-    set(last.vertex, labels.data());
+    std::ranges::copy(domains_[last.vertex], kept_.begin());
+    erase(kept_, last.label);
+    set(last.vertex, kept_.data());
     if (count(domains_[last.vertex]) == 0) continue;
     enqueue(last.vertex);
     if (propagate()) return std::nullopt;
   }
+}
+
+/// Takes back all but the first choices, which is a failure of the last ones.
+void Search::takeBackTo(std::size_t choices) {
+  if (choices >= choices_.size()) return;
+  ++counts_.failures;
+  undo(choices_[choices].trail);
+  choices_.resize(choices);
 }
 
 Found Search::run(const Random& random, std::int64_t budget, const Progress& progress) {
@@ -288,7 +309,7 @@ Found Search::run(const Random& random, std::int64_t budget, const Progress& pro
   std::size_t place = 0, reported = 0;
   const std::int64_t failuresAllowed = counts_.failures + budget;
   while (true) {
-    while (place < vertices_.size() && count(domains_[vertices_[place]]) == 1) ++place;
+    while (place < vertices_.size() && hasOne(domains_[vertices_[place]])) ++place;
     if (place == vertices_.size()) return Found::All;
     if (place >= reported) {
       progress.report("choosing labels",

@@ -88,20 +88,25 @@ struct SearchCounts {
 ///
 /// Domains are kept arc consistent: along every edge, each label of one end agrees with one of the
 /// other's. Since a label determines its edge labels, that takes set operations only, and no
-/// matrix of pairs. Where a choice fails it is undone, its label removed, and the search goes on
-/// from there (chronological backtracking), which the papers leave out.
+/// matrix of pairs; and since the edge labels that each vertex leaves are kept, a change costs one
+/// look at each of its edges but for those along which something goes. Where a choice fails it is
+/// undone, its label removed, and the search goes on from there (chronological backtracking), which
+/// the papers leave out.
 class Search {
  public:
-  /// Marks that searches on the same domains share.
+  /// What searches on the same domains share.
   struct Marks {
-    explicit Marks(std::size_t vertices) : region(vertices), saved(vertices), queued(vertices) {}
+    explicit Marks(const Puzzle& puzzle);
     std::vector<std::uint32_t> region, saved;
     std::vector<std::uint8_t> queued;
+    /// Of each vertex in turn, from `firstEdge` on, the edge labels that its domain leaves
+    /// (`EdgeRows`); those of a vertex in the queue are of before.
+    std::vector<std::size_t> firstEdge;
+    std::vector<Word> edges;
   };
 
   /// `weights` of figures, >= 0, say how likely they are chosen.
-  Search(const Puzzle& puzzle, std::span<const double> weights, Domains& domains, Marks& marks)
-      : puzzle_(puzzle), weights_(weights), domains_(domains), marks_(marks) {}
+  Search(const Puzzle& puzzle, std::span<const double> weights, Domains& domains, Marks& marks);
 
   /// Makes the domains of `vertices` (ascending) arc consistent, with each other and with what is
   /// around them; false where one becomes empty. `region` is a number above 0 that no other search
@@ -120,15 +125,20 @@ class Search {
   const SearchCounts& counts() const { return counts_; }
 
  private:
+  friend class Grower;
   struct Choice {
     std::size_t place;  // in vertices_
     std::size_t label;
     std::size_t trail;
     std::uint32_t vertex;
-    bool seed = false;
+    int seeds = 0;  // in growth: with this choice
   };
 
+  const EdgeRows& rowsOf(std::uint32_t v) const { return puzzle_.classOf(v).edgeRows; }
+  void rowOf(std::uint32_t v, Word* row) const;
+  Word* edgesOf(std::uint32_t v) { return marks_.edges.data() + marks_.firstEdge[v]; }
   bool narrow(std::uint32_t v, std::uint32_t ray, const Word* edges);
+  bool tellAlong(std::uint32_t v, std::uint32_t ray);
   bool propagate();
   bool restrictByBorder(std::uint32_t v);
   void set(std::uint32_t v, const Word* labels);
@@ -137,8 +147,8 @@ class Search {
   std::size_t choose(std::uint32_t v, const Random& random);
   double weight(std::uint32_t v, std::uint32_t figure) const;
   bool assign(const Choice& choice);
+  void takeBackTo(std::size_t choices);
   std::optional<Found> backtrack(std::int64_t failuresAllowed, std::size_t start);
-  void edgesOf(std::uint32_t v, std::uint32_t ray, Word* edges) const;
 
   const Puzzle& puzzle_;
   std::span<const double> weights_;
@@ -150,6 +160,9 @@ class Search {
   std::vector<Choice> choices_;
   std::vector<std::uint32_t> trailVertices_;
   std::vector<Word> trailWords_;
+  std::vector<Word> kept_, row_;                  // scratch: a domain, a row of edges
+  std::vector<std::uint32_t> changed_;            // scratch: rays
+  std::vector<std::uint32_t>* undone_ = nullptr;  // where given, takes the vertices that `undo` has
   const Guide* guide_ = nullptr;
   bool backtracks_ = true;
   SearchCounts counts_;

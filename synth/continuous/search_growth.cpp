@@ -14,6 +14,10 @@ namespace {
 constexpr int kSeedDraws = 64;
 /// Choices between two counts of what is built.
 constexpr int kRecount = 64;
+/// How often a result that has closed too early is opened again, and which share of what should
+/// grow is enough.
+constexpr int kReopenings = 40;
+constexpr double kFullyGrown = 0.9;
 
 }  // namespace
 
@@ -38,45 +42,101 @@ Growth growthOf(const Puzzle& puzzle, std::optional<Substance> ground) {
   return growth;
 }
 
-Found Search::grow(const Growth& growth, const Random& random, std::int64_t budget,
-                   const Progress& progress) {
-  const std::size_t start = trailVertices_.size();
-  const std::int64_t failuresAllowed = counts_.failures + budget;
-  const Arrangement& a = puzzle_.arrangement;
-  const auto isDecided = [&](std::uint32_t v) { return count(domains_[v]) == 1; };
-  const auto labelOf = [&](std::uint32_t v) {
-    std::size_t label = 0;
-    forEach(domains_[v], [&](std::size_t l) { label = l; });
-    return label;
-  };
-  // Undecided vertices next to something built, and some that were that before.
-  std::vector<std::uint32_t> frontier;
-  const auto isNext = [&](std::uint32_t v) {
-    if (marks_.region[v] != region_ || isDecided(v)) return false;
+/// One `Search::grow`: which vertex is decided next, and what it becomes.
+class Grower {
+ public:
+  Grower(Search& search, const Growth& growth, const Random& random)
+      : search_(search),
+        growth_(growth),
+        random_(random),
+        start_(search.trailVertices_.size()),
+        onFrontier_(search.puzzle_.arrangement.vertices()) {}
+
+  Found run(std::int64_t budget, const Progress& progress) {
+    const std::int64_t failuresAllowed = search_.counts_.failures + budget;
+    for (const std::uint32_t v : search_.vertices_)
+      if (isBuilt(v)) addNeighbors(v);
+    while (true) {
+      progress.check();
+      if (search_.counts_.choices % kRecount == 0) {
+        share_ = builtShare();
+        progress.report("growing", std::min(1.0, share_ / std::max(1e-9, growth_.share)));
+      }
+      std::optional<Choice> choice = onFrontier();
+      if (!choice) choice = seed();
+      if (!choice && reopen()) continue;
+      if (!choice) choice = rest();
+      if (!choice) return Found::All;
+      choice->trail = search_.trailVertices_.size();
+      choice->seeds = seeds_;
+      if (search_.assign(*choice)) {
+        follow(choice->trail);
+        continue;
+      }
+      if (const std::optional<Found> end = takeBack(failuresAllowed)) return *end;
+    }
+  }
+
+ private:
+  using Choice = Search::Choice;
+
+  bool isDecided(std::uint32_t v) const { return hasOne(search_.domains_[v]); }
+  std::size_t labelOf(std::uint32_t v) const { return lowest(search_.domains_[v]); }
+  bool isBuilt(std::uint32_t v) const {
+    return isDecided(v) && growth_.builtAt[arrangement().kind(v)][labelOf(v)];
+  }
+  double builtShare() const {
+    const auto built =
+        std::ranges::count_if(search_.vertices_, [&](std::uint32_t v) { return isBuilt(v); });
+    return static_cast<double>(built) /
+           static_cast<double>(std::max<std::size_t>(1, search_.vertices_.size()));
+  }
+  /// Whether a vertex is undecided and next to something built.
+  bool isNext(std::uint32_t v) const {
+    if (search_.marks_.region[v] != search_.region_ || isDecided(v)) return false;
+    const Arrangement& a = arrangement();
     return std::ranges::any_of(a.ends(v), [&](const EdgeEnd& end) {
       return end.vertex != EdgeEnd::kNone && a.inside(end.vertex) && isDecided(end.vertex) &&
-             growth.builtAlong[a.kind(end.vertex)][end.ray][labelOf(end.vertex)];
+             growth_.builtAlong[a.kind(end.vertex)][end.ray][labelOf(end.vertex)];
     });
-  };
-  const auto addNeighbors = [&](std::uint32_t v) {
-    for (const EdgeEnd& end : a.ends(v))
-      if (end.vertex != EdgeEnd::kNone && a.inside(end.vertex)) frontier.push_back(end.vertex);
-  };
-  const auto follow = [&](std::size_t from) {
-    for (std::size_t n = from; n < trailVertices_.size(); ++n) {
-      const std::uint32_t v = trailVertices_[n];
-      if (isDecided(v) && growth.builtAt[a.kind(v)][labelOf(v)]) addNeighbors(v);
+  }
+  void addNeighbors(std::uint32_t v) {
+    for (const EdgeEnd& end : arrangement().ends(v)) {
+      if (end.vertex != EdgeEnd::kNone && arrangement().inside(end.vertex)) add(end.vertex);
     }
-  };
-  // The label with the least of anything built, the background's where it may be.
-  const auto emptiest = [&](std::uint32_t v) {
-    const int background = puzzle_.background[v];
-    if (background >= 0 && contains(domains_[v], static_cast<std::size_t>(background)))
+  }
+  void add(std::uint32_t v) {
+    if (onFrontier_[v]) return;
+    onFrontier_[v] = 1;
+    frontier_.push_back(v);
+  }
+  /// Takes back choices by `undo`; what that frees comes back to the frontier.
+  template <class Undo>
+  auto takingBack(Undo&& undo) {
+    undone_.clear();
+    search_.undone_ = &undone_;
+    const auto result = undo();
+    search_.undone_ = nullptr;
+    for (const std::uint32_t v : undone_) add(v);
+    seeds_ = search_.choices_.empty() ? 0 : search_.choices_.back().seeds;
+    return result;
+  }
+  /// Adds what is next to something that has changed.
+  void follow(std::size_t trail) {
+    for (std::size_t n = trail; n < search_.trailVertices_.size(); ++n)
+      if (isBuilt(search_.trailVertices_[n])) addNeighbors(search_.trailVertices_[n]);
+  }
+
+  /// The label with the least of anything built, the background's where it may be.
+  std::size_t emptiest(std::uint32_t v) const {
+    const std::span<const Word> domain = search_.domains_[v];
+    const int background = search_.puzzle_.background[v];
+    if (background >= 0 && contains(domain, static_cast<std::size_t>(background)))
       return static_cast<std::size_t>(background);
     std::size_t best = 0;
     std::ptrdiff_t least = -1;
-    forEach(domains_[v], [&](std::size_t l) {
-      const std::span<const Substance> cells = puzzle_.classOf(v).cells(l);
+    forEach(domain, [&](std::size_t l) {
+      const std::span<const Substance> cells = search_.puzzle_.classOf(v).cells(l);
       const std::ptrdiff_t some =
           static_cast<std::ptrdiff_t>(cells.size()) - std::ranges::count(cells, kAir);
       if (least >= 0 && some >= least) return;
@@ -84,75 +144,95 @@ Found Search::grow(const Growth& growth, const Random& random, std::int64_t budg
       best = l;
     });
     return best;
-  };
-  std::uint64_t draw = 0;
-  int seeds = 0;
-  double share = 0;
-  std::size_t place = 0;
-  for (const std::uint32_t v : vertices_)
-    if (isDecided(v) && growth.builtAt[a.kind(v)][labelOf(v)]) addNeighbors(v);
-  while (true) {
-    progress.check();
-    if (counts_.choices % kRecount == 0) {
-      const auto built = std::ranges::count_if(vertices_, [&](std::uint32_t v) {
-        return isDecided(v) && growth.builtAt[a.kind(v)][labelOf(v)];
-      });
-      share = static_cast<double>(built) /
-              static_cast<double>(std::max<std::size_t>(1, vertices_.size()));
-      progress.report("growing", std::min(1.0, share / std::max(1e-9, growth.share)));
+  }
+
+  /// A vertex at random next to what is built.
+  std::optional<Choice> onFrontier() {
+    while (!frontier_.empty()) {
+      const std::uint32_t n =
+          random_.below(static_cast<std::uint32_t>(frontier_.size()), draw_++, 1);
+      const std::uint32_t v = frontier_[n];
+      frontier_[n] = frontier_.back();
+      frontier_.pop_back();
+      onFrontier_[v] = 0;
+      if (!isNext(v)) continue;
+      return Choice{0, share_ < growth_.share ? search_.choose(v, random_) : emptiest(v), 0, v};
     }
-    Choice choice{0, 0, trailVertices_.size(), EdgeEnd::kNone};
-    while (!frontier.empty() && choice.vertex == EdgeEnd::kNone) {
-      const std::uint32_t n = random.below(static_cast<std::uint32_t>(frontier.size()), draw++, 1);
-      std::swap(frontier[n], frontier.back());
-      if (isNext(frontier.back())) choice.vertex = frontier.back();
-      frontier.pop_back();
-    }
-    if (choice.vertex != EdgeEnd::kNone) {
-      choice.label = share < growth.share ? choose(choice.vertex, random) : emptiest(choice.vertex);
-    } else if (seeds < growth.seeds && share < growth.share) {
-      for (int n = 0; n < kSeedDraws && choice.vertex == EdgeEnd::kNone; ++n) {
-        const std::uint32_t v =
-            vertices_[random.below(static_cast<std::uint32_t>(vertices_.size()), draw++, 2)];
+    return std::nullopt;
+  }
+
+  /// Something built at an undecided vertex, where groups are missing.
+  std::optional<Choice> seed() {
+    while (seeds_ < growth_.seeds && share_ < growth_.share) {
+      ++seeds_;
+      for (int n = 0; n < kSeedDraws; ++n) {
+        const auto size = static_cast<std::uint32_t>(search_.vertices_.size());
+        const std::uint32_t v = search_.vertices_[random_.below(size, draw_++, 2)];
         if (isDecided(v)) continue;
         std::vector<std::size_t> labels;
-        forEach(domains_[v], [&](std::size_t l) {
-          if (growth.builtAt[a.kind(v)][l] && weight(v, puzzle_.classOf(v).figures[l]) > 0)
+        forEach(search_.domains_[v], [&](std::size_t l) {
+          const std::uint32_t figure = search_.puzzle_.classOf(v).figures[l];
+          if (growth_.builtAt[arrangement().kind(v)][l] && search_.weight(v, figure) > 0)
             labels.push_back(l);
         });
         if (labels.empty()) continue;
-        choice.vertex = v;
-        choice.label = labels[random.below(static_cast<std::uint32_t>(labels.size()), draw++, 3)];
-        choice.seed = true;
+        const auto many = static_cast<std::uint32_t>(labels.size());
+        return Choice{0, labels[random_.below(many, draw_++, 3)], 0, v};
       }
-      ++seeds;
-      if (choice.vertex == EdgeEnd::kNone) continue;
-    } else {
-      while (place < vertices_.size() && isDecided(vertices_[place])) ++place;
-      if (place == vertices_.size()) return Found::All;
-      choice.vertex = vertices_[place];
-      choice.label = emptiest(choice.vertex);
     }
-    const std::size_t from = trailVertices_.size();
-    if (assign(choice)) {
-      follow(from);
-      continue;
-    }
-    const std::size_t before = choices_.size();
-    std::vector<std::uint32_t> undone(trailVertices_.begin() + static_cast<std::ptrdiff_t>(start),
-                                      trailVertices_.end());
-    std::vector<std::uint8_t> wasSeed;
-    for (const Choice& c : choices_) wasSeed.push_back(c.seed);
-    if (const std::optional<Found> end = backtrack(failuresAllowed, start)) return *end;
-    for (std::size_t n = choices_.size(); n < before; ++n) seeds -= wasSeed[n];
-    const std::size_t kept = choices_.empty() ? start : choices_.back().trail;
-    frontier.insert(
-        frontier.end(),
-        undone.begin() + static_cast<std::ptrdiff_t>(std::min(kept - start, undone.size())),
-        undone.end());
-    follow(std::min(kept, trailVertices_.size()));
-    place = 0;
+    return std::nullopt;
   }
+
+  /// Undoes some of the last choices where nothing can grow any more and too little has grown.
+  bool reopen() {
+    if (reopened_ >= kReopenings || place_ > 0 || search_.choices_.size() < 2) return false;
+    share_ = builtShare();
+    if (share_ >= kFullyGrown * growth_.share) return false;
+    ++reopened_;
+    const auto choices = static_cast<std::uint32_t>(search_.choices_.size());
+    const std::uint32_t kept = choices / 2 + random_.below((choices + 1) / 2, draw_++, 4);
+    return takingBack([&] {
+      search_.takeBackTo(kept);
+      return true;
+    });
+  }
+
+  /// The next undecided vertex, as empty as it can be.
+  std::optional<Choice> rest() {
+    const std::span<const std::uint32_t> vertices = search_.vertices_;
+    while (place_ < vertices.size() && isDecided(vertices[place_])) ++place_;
+    if (place_ == vertices.size()) return std::nullopt;
+    return Choice{0, emptiest(vertices[place_]), 0, vertices[place_]};
+  }
+
+  /// Undoes a choice that failed.
+  std::optional<Found> takeBack(std::int64_t failuresAllowed) {
+    if (const std::optional<Found> end =
+            takingBack([&] { return search_.backtrack(failuresAllowed, start_); }))
+      return end;
+    follow(search_.choices_.empty() ? start_ : search_.choices_.back().trail);
+    place_ = 0;
+    return std::nullopt;
+  }
+
+  const Arrangement& arrangement() const { return search_.puzzle_.arrangement; }
+
+  Search& search_;
+  const Growth& growth_;
+  const Random& random_;
+  std::size_t start_;                     // of the trail
+  std::vector<std::uint32_t> frontier_;   // next to something built, or were that before
+  std::vector<std::uint8_t> onFrontier_;  // of vertices: whether they are there
+  std::vector<std::uint32_t> undone_;     // scratch
+  std::uint64_t draw_ = 0;
+  int seeds_ = 0, reopened_ = 0;
+  double share_ = 0;       // of the vertices that are built
+  std::size_t place_ = 0;  // in the vertices; those before are decided
+};
+
+Found Search::grow(const Growth& growth, const Random& random, std::int64_t budget,
+                   const Progress& progress) {
+  return Grower(*this, growth, random).run(budget, progress);
 }
 
 }  // namespace exemplar::continuous

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "core/error.h"
 #include "core/random_streams.h"
@@ -102,7 +104,7 @@ class Synthesis {
     restrictThin(puzzle, vertices_);
     if (options_.map)
       guide_ = applyDensityMap(*options_.map, inner, example_.ground, puzzle, vertices_);
-    if (options_.groups > 0) planGrowth(puzzle);
+    if (options_.groups > 0) growth_ = planGrowth(puzzle);
     Domains open = puzzle.domains;
     std::vector<std::vector<Allowed>> demands;
     for (const PlacedSubstance& placed : options_.placed)
@@ -113,16 +115,8 @@ class Synthesis {
           puzzle.domains[a.vertex][w] &= a.labels[w];
     }
     const Domains allowed = puzzle.domains;
-    solve(puzzle, open, demands, progress.part(0.4, 0.9));
+    solve(puzzle, allowed, open, demands, progress.part(0.4, 0.9));
     if (result_.outcome != Outcome::Complete) return std::move(result_);
-    if (grounded_) {
-      result_.statistics.floating =
-          removeFloating(puzzle, allowed, inner_, example_.ground->substance, puzzle.domains);
-    }
-    if (growth_) {
-      result_.statistics.groups =
-          keepLargest(puzzle, allowed, inner_, *growth_, options_.groups, puzzle.domains);
-    }
 
     const LabelFilling filling(puzzle, puzzle.domains, example_.ground);
     result_.statistics.shares =
@@ -164,13 +158,14 @@ class Synthesis {
     return box;
   }
 
-  void planGrowth(const Puzzle& puzzle) {
+  Growth planGrowth(const Puzzle& puzzle) const {
     std::optional<Substance> ground;
     if (example_.ground) ground = example_.ground->substance;
-    growth_ = growthOf(puzzle, ground);
-    growth_->seeds = options_.groups;
+    Growth growth = growthOf(puzzle, ground);
+    growth.seeds = options_.groups;
     const double empty = result_.statistics.exampleShares[static_cast<int>(FigureClass::Empty)];
-    growth_->share = std::min(1.0, (1 - empty) * options_.density);
+    growth.share = std::min(1.0, (1 - empty) * options_.density);
+    return growth;
   }
 
   /// How often each figure is at an inner vertex of the lattice's planes around the example.
@@ -265,19 +260,19 @@ class Synthesis {
     return corners;
   }
 
-  /// Weights that are learned in this puzzle where it is small, else in a smaller one.
+  /// Adapts weights in this puzzle where it is small, else in a smaller one.
   void learn(const Puzzle& puzzle, const Domains& consistent, const Progress& progress) {
-    std::optional<Substance> ground;
-    if (grounded_) ground = example_.ground->substance;
-    const LearnOptions options{options_.learning, ground, options_.density, options_.objectSize};
+    ClassWeights& weights =
+        classWeights_.emplace(classes_, counts_, options_.density, options_.objectSize);
+    if (options_.learning == 0) return weights.forget();
+    LearnOptions options{options_.learning, {}, growth_ ? &*growth_ : nullptr};
+    if (grounded_) options.ground = example_.ground->substance;
     const Random random(options_.seed, stream::kFigureLearning);
     constexpr double kPilot = 6000;  // vertices
     const double factor = std::sqrt(kPilot / static_cast<double>(vertices_.size()));
-    if (options_.learning == 0 || factor > 0.8) {
-      weights_ =
-          learnWeights(puzzle, consistent, vertices_, classes_, counts_, random, options, progress);
-      return;
-    }
+    if (factor > 0.8)
+      return learnWeights(weights, puzzle, consistent, vertices_, classes_, random, options,
+                          progress);
     const Vec3i least = sizeInSpacings(lattice_, example_);
     Vec3i size = options_.size;
     for (int axis = 0; axis < 2; ++axis)
@@ -288,23 +283,19 @@ class Synthesis {
     Puzzle pilot = makePuzzle(small, puzzle.figures, example_.ground);
     const std::vector<std::uint32_t> vertices = innerVertices(small);
     restrictThin(pilot, vertices);
-    Search::Marks marks(small.vertices());
+    std::optional<Growth> growth;
+    if (growth_) {
+      growth = planGrowth(pilot);
+      // As many groups on as much room.
+      const double room = static_cast<double>(vertices.size()) / static_cast<double>(inner_.size());
+      growth->seeds = std::max(1, static_cast<int>(std::lround(options_.groups * room)));
+      options.growth = &*growth;
+    }
+    Search::Marks marks(pilot);
     const std::vector<double> equal(puzzle.figures.size(), 1);
     Search search(pilot, equal, pilot.domains, marks);
     search.begin(vertices, 1);
-    weights_ =
-        learnWeights(pilot, pilot.domains, vertices, classes_, counts_, random, options, progress);
-  }
-
-  /// How much of a solved puzzle is built, of the vertices that are searched.
-  double builtShare(const Puzzle& puzzle) const {
-    std::size_t built = 0;
-    for (const std::uint32_t v : vertices_) {
-      forEach(puzzle.domains[v],
-              [&](std::size_t l) { built += growth_->builtAt[puzzle.arrangement.kind(v)][l]; });
-    }
-    return static_cast<double>(built) /
-           static_cast<double>(std::max<std::size_t>(1, vertices_.size()));
+    learnWeights(weights, pilot, pilot.domains, vertices, classes_, random, options, progress);
   }
 
   /// Has a half of the vertices stand for all, in the puzzle and where no demand counts.
@@ -326,53 +317,20 @@ class Synthesis {
     }
   }
 
-  void solve(Puzzle& puzzle, Domains& open, const std::vector<std::vector<Allowed>>& demands,
-             const Progress& progress) {
+  void solve(Puzzle& puzzle, const Domains& allowed, Domains& open,
+             const std::vector<std::vector<Allowed>>& demands, const Progress& progress) {
     weights_.assign(puzzle.figures.size(), 1);
-    Search::Marks marks(puzzle.arrangement.vertices());
+    Search::Marks marks(puzzle);
     Search search(puzzle, weights_, puzzle.domains, marks);
-    ContinuousStatistics& s = result_.statistics;
     if (!search.begin(vertices_, 1)) return explain(puzzle, open, demands);
     learn(puzzle, puzzle.domains, progress.part(0, 0.4));
-    const std::int64_t budget = options_.budget > 0
-                                    ? options_.budget
-                                    : 1000 + static_cast<std::int64_t>(vertices_.size()) / 10;
+    weights_ = classWeights_->weights();
     if (options_.mirror.any()) restrictToHalf(puzzle, open);
-    // `run` sees the weights through a view of the vector that `learn` has replaced.
-    Search passes(puzzle, weights_, puzzle.domains, marks);
-    if (guide_) passes.setGuide(&*guide_);
-    if (!passes.begin(vertices_, 2)) return explain(puzzle, open, demands);
-    const Domains consistent = growth_ ? puzzle.domains : Domains{0, 1};
-    std::optional<Domains> fullest;  // of grown results, which may stop early
-    double full = 0;
-    const int attempts = options_.blocksOnly ? 0 : (growth_ ? kGrownAgain : 1) * options_.attempts;
-    for (int attempt = 0; attempt < attempts; ++attempt) {
-      ++s.attempts;
-      const double share = 0.3 / attempts, from = 0.4 + share * attempt;
-      const Random random = random_.fork(static_cast<std::uint64_t>(attempt));
-      const Progress part = progress.part(from, from + share);
-      const Found found =
-          growth_ ? passes.grow(*growth_, random, budget, part) : passes.run(random, budget, part);
-      s.choices = passes.counts().choices;
-      s.failures = passes.counts().failures;
+    if (!options_.blocksOnly) {
+      const Found found = makeWhole(puzzle, allowed, marks, progress.part(0.4, 0.7));
       if (found == Found::Nothing) return explain(puzzle, open, demands);
-      if (found == Found::All && growth_) {
-        if (const double built = builtShare(puzzle); !fullest || built > full) {
-          full = built;
-          fullest = puzzle.domains;
-        }
-        if (full >= kFullyGrown * growth_->share) break;
-        puzzle.domains = consistent;
-        passes.begin(vertices_, 3 + static_cast<std::uint32_t>(attempt));
-        continue;
-      }
-      s.whole = found == Found::All;
-      if (s.whole) break;
+      if (found == Found::All) return;
     }
-    const bool grown = fullest.has_value();
-    if (grown) puzzle.domains = std::move(*fullest);
-    s.whole = s.whole || grown;
-    if (s.whole) return completeImages(puzzle.domains);
     const bool blocks = options_.blocks && mirrors_.empty();
     const Outcome start = blocks ? startOfBlocks(puzzle) : decide(puzzle, true);
     if (start == Outcome::Impossible) return explain(puzzle, open, demands);
@@ -383,23 +341,102 @@ class Synthesis {
           "smaller `size`, or a larger `budget`";
       return;
     }
-    if (!blocks) {
-      s.whole = true;
-      completeImages(puzzle.domains);
-      return;
+    if (blocks) {
+      makeBlocks(puzzle, progress.part(0.7, 1));
+    } else {
+      result_.statistics.whole = true;
     }
+    tidy(puzzle, allowed);
+  }
+
+  /// Makes results in one pass until one has about the shares that are wanted, or the nearest one
+  /// of a few; weights are adapted after each.
+  /// The search looks at `weights_`, which stay where they are.
+  Found makeWhole(Puzzle& puzzle, const Domains& allowed, Search::Marks& marks,
+                  const Progress& progress) {
+    ContinuousStatistics& s = result_.statistics;
+    const std::int64_t budget = options_.budget > 0
+                                    ? options_.budget
+                                    : 1000 + static_cast<std::int64_t>(vertices_.size()) / 10;
+    Search search(puzzle, weights_, puzzle.domains, marks);
+    if (guide_) search.setGuide(&*guide_);
+    std::uint32_t region = 2;
+    if (!search.begin(vertices_, region)) return Found::Nothing;
+    const Domains consistent = puzzle.domains;
+    // Where results are guided, they are as full as the guide says.
+    const int wanted = guide_ || options_.learning == 0 ? 1 : kResults;
+    std::optional<Domains> best;
+    double nearest = 0;
+    std::pair<std::int64_t, std::int64_t> pieces;  // of the best: floating ones, groups
+    int made = 0, spent = 0, quick = budget > kQuickBudget ? kQuickAttempts : 0;
+    // What is nearly empty, or far too full, is quickly made again.
+    const auto enough = [&] { return made >= (nearest > kFar ? 3 * wanted : wanted); };
+    while (!enough() && (quick > 0 || (made == 0 && spent < options_.attempts))) {
+      if (s.attempts > 0) {
+        puzzle.domains = consistent;
+        search.begin(vertices_, ++region);
+      }
+      const Random random = random_.fork(static_cast<std::uint64_t>(s.attempts++));
+      const double share = 1.0 / (kQuickAttempts + options_.attempts + wanted);
+      const Progress part =
+          progress.part(std::min(1.0, share * (s.attempts - 1)), std::min(1.0, share * s.attempts));
+      const std::int64_t failures = quick > 0 ? kQuickBudget : budget;
+      const Found found = growth_ ? search.grow(*growth_, random, failures, part)
+                                  : search.run(random, failures, part);
+      s.choices = search.counts().choices;
+      s.failures = search.counts().failures;
+      if (found == Found::Nothing) return found;
+      if (found == Found::Spent) {
+        quick > 0 ? --quick : ++spent;
+        continue;
+      }
+      ++made;
+      tidy(puzzle, allowed);
+      const Shares shares = sharesIn(puzzle, puzzle.domains, inner_, classes_);
+      const double distance = classWeights_->distance(shares);
+      if (!best || distance < nearest) {
+        nearest = distance;
+        best = puzzle.domains;
+        pieces = {s.floating, s.groups};
+      }
+      if (nearest <= kNear) break;
+      classWeights_->adapt(shares, inner_.size());
+      std::ranges::copy(classWeights_->weights(), weights_.begin());
+    }
+    if (!best) return Found::Spent;
+    puzzle.domains = std::move(*best);
+    std::tie(s.floating, s.groups) = pieces;
+    s.whole = true;
+    return Found::All;
+  }
+
+  void makeBlocks(Puzzle& puzzle, const Progress& progress) {
+    ContinuousStatistics& s = result_.statistics;
     Domains labels = start_;
     const BlockCounts counts = modifyInBlocks(puzzle, weights_, labels, random_,
                                               {.spacing = lattice_.spacing,
                                                .side = options_.block,
                                                .rounds = options_.rounds,
                                                .guide = guide_ ? &*guide_ : nullptr},
-                                              progress.part(0.7, 1));
+                                              progress);
     puzzle.domains = std::move(labels);
     s.blocks = counts.blocks;
     s.blocksKept = counts.kept;
     s.choices += counts.choices;
     s.failures += counts.failures;
+  }
+
+  /// Completes a result of the vertices that were searched, and takes from it what may not be.
+  void tidy(Puzzle& puzzle, const Domains& allowed) {
+    completeImages(puzzle.domains);
+    ContinuousStatistics& s = result_.statistics;
+    if (grounded_) {
+      s.floating =
+          removeFloating(puzzle, allowed, inner_, example_.ground->substance, puzzle.domains);
+    }
+    if (growth_) {
+      s.groups = keepLargest(puzzle, allowed, inner_, *growth_, options_.groups, puzzle.domains);
+    }
   }
 
   /// The background where it is allowed, else what the exact solver finds near to it.
@@ -452,7 +489,7 @@ class Synthesis {
     result_.outcome = Outcome::Impossible;
     result_.why = "impossible: nothing meets what is required";
     Puzzle free{puzzle.arrangement, puzzle.figures, puzzle.classes, open, puzzle.background};
-    Search::Marks marks(puzzle.arrangement.vertices());
+    Search::Marks marks(puzzle);
     Search search(free, weights_, free.domains, marks);
     if (!search.begin(vertices_, 1)) return;
     ++result_.statistics.exact;
@@ -486,10 +523,12 @@ class Synthesis {
   }
 
   static constexpr std::int64_t kConflicts = 300'000;
-  /// What has grown to this share of what it should is not grown again.
-  static constexpr double kFullyGrown = 0.6;
-  /// What grows may be closed after a few choices, which is quick; it is tried so much more often.
-  static constexpr int kGrownAgain = 4;
+  /// Results of which the nearest to the wanted shares is taken, and how near is near enough.
+  static constexpr int kResults = 4;
+  static constexpr double kNear = 1.4, kFar = 4;
+  /// Attempts of few failures before the long ones: most results need none, or a great many.
+  static constexpr int kQuickAttempts = 12;
+  static constexpr std::int64_t kQuickBudget = 200;
   /// Spacings beyond an open side: enough that its end has no influence on what is there.
   static constexpr std::int64_t kMargin = 3;
 
@@ -505,6 +544,7 @@ class Synthesis {
   std::optional<Guide> guide_;
   std::optional<Growth> growth_;
   std::vector<Mirror> mirrors_;
+  std::optional<ClassWeights> classWeights_;
   std::vector<double> weights_;  // of figures
   bool grounded_ = false;        // nothing may hang in the air
   Domains start_{0, 1};          // of blocks

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "synth/continuous/grounding.h"
 
@@ -18,8 +19,11 @@ constexpr double kSmallShare = 0.005;
 /// The share of a class that the example's own planes do not show at all (no vertex is in the
 /// middle of a face, say), above which it is held back.
 constexpr double kUnseenShare = 0.02;
-/// Trial results of a round, whose shares are averaged.
+/// Trial results of a round, whose shares are averaged: a large one varies less by chance.
 constexpr int kTrials = 2;
+constexpr std::size_t kLargeTrial = 20'000;  // vertices, of which one is enough
+/// Shares that are this near to those wanted need no further round.
+constexpr double kLearned = 1.2;
 
 bool isEmpty(const Figure& figure, const std::optional<Ground>& ground) {
   if (figure == Figure{0, {kAir}}) return true;
@@ -27,14 +31,6 @@ bool isEmpty(const Figure& figure, const std::optional<Ground>& ground) {
   return figure == Figure{0, {ground->substance}} ||
          (__builtin_popcount(figure.support) == 1 &&
           figure.substances == std::vector<Substance>{ground->substance, kAir});
-}
-
-std::vector<double> weighted(std::span<const FigureClass> classes, std::span<const double> counts,
-                             const Shares& factors) {
-  std::vector<double> weights;
-  for (std::size_t f = 0; f < counts.size(); ++f)
-    weights.push_back((counts[f] + kUnseen) * factors[static_cast<std::size_t>(classes[f])]);
-  return weights;
 }
 
 }  // namespace
@@ -78,68 +74,92 @@ double largestFactor(const Shares& shares, const Shares& wanted) {
   return largest;
 }
 
-std::vector<double> learnWeights(const Puzzle& puzzle, const Domains& consistent,
-                                 std::span<const std::uint32_t> vertices,
-                                 std::span<const FigureClass> classes,
-                                 std::span<const double> counts, const Random& random,
-                                 const LearnOptions& options, const Progress& progress) {
-  Shares wanted = sharesOf(classes, counts);
+Shares sharesIn(const Puzzle& puzzle, const Domains& solved,
+                std::span<const std::uint32_t> vertices, std::span<const FigureClass> classes) {
+  Shares shares{};
+  for (const std::uint32_t v : vertices) {
+    const std::uint32_t figure = puzzle.classOf(v).figures[lowest(solved[v])];
+    shares[static_cast<std::size_t>(classes[figure])] += 1;
+  }
+  for (double& share : shares)
+    share /= static_cast<double>(std::max<std::size_t>(1, vertices.size()));
+  return shares;
+}
+
+ClassWeights::ClassWeights(std::span<const FigureClass> classes, std::span<const double> counts,
+                           double density, double objectSize)
+    : classes_(classes), counts_(counts), density_(density), wanted_(sharesOf(classes, counts)) {
+  factors_.fill(1);
   // n times as large, a solid has n^3 times what is within, n^2 faces, n edges and as many corners.
   double before = 0, after = 0;
   for (int c = 1; c < kFigureClasses; ++c) {
-    before += wanted[c];
-    wanted[c] *= std::pow(options.objectSize, 1 - c);
-    after += wanted[c];
+    before += wanted_[c];
+    wanted_[c] *= std::pow(objectSize, 1 - c);
+    after += wanted_[c];
   }
-  for (int c = 1; c < kFigureClasses; ++c) wanted[c] *= after > 0 ? before / after : 1;
   double full = 0;
-  for (int c = 1; c < kFigureClasses; ++c) full += wanted[c] *= options.density;
-  wanted[0] = std::max(0.0, 1 - full);
-  Shares factors;
-  factors.fill(1);
-  if (options.rounds == 0) {
-    std::fill(factors.begin() + 1, factors.end(), options.density);
-    return weighted(classes, counts, factors);
+  for (int c = 1; c < kFigureClasses; ++c)
+    full += wanted_[c] *= density * (after > 0 ? before / after : 1);
+  wanted_[0] = std::max(0.0, 1 - full);
+}
+
+std::vector<double> ClassWeights::weights() const {
+  std::vector<double> weights;
+  for (std::size_t f = 0; f < counts_.size(); ++f)
+    weights.push_back((counts_[f] + kUnseen) * factors_[static_cast<std::size_t>(classes_[f])]);
+  return weights;
+}
+
+void ClassWeights::adapt(const Shares& shares, std::size_t vertices) {
+  // A class that is not there at all counts as a quarter of a vertex.
+  const double least = 0.25 / static_cast<double>(vertices);
+  for (int c = 0; c < kFigureClasses; ++c) {
+    const double share = wanted_[c] > 0 ? wanted_[c] : kUnseenShare;
+    const double step = std::pow(share / std::max(shares[c], least), 0.6);
+    factors_[c] *= std::clamp(step, 0.3, 3.0);
+    if (wanted_[c] <= 0) factors_[c] = std::min(factors_[c], 1.0);
   }
-  std::vector<double> best = weighted(classes, counts, factors), weights = best;
+}
+
+void ClassWeights::forget() { std::fill(factors_.begin() + 1, factors_.end(), density_); }
+
+void learnWeights(ClassWeights& weights, const Puzzle& puzzle, const Domains& consistent,
+                  std::span<const std::uint32_t> vertices, std::span<const FigureClass> classes,
+                  const Random& random, const LearnOptions& options, const Progress& progress) {
+  ClassWeights best = weights;
   double nearest = std::numeric_limits<double>::infinity();
   Domains domains = consistent;
-  Search::Marks marks(puzzle.arrangement.vertices());
-  for (int round = 0; round < options.rounds; ++round) {
+  Search::Marks marks(puzzle);
+  const int trials = vertices.size() > kLargeTrial ? 1 : kTrials;
+  for (int round = 0; round < options.rounds && nearest > kLearned; ++round) {
     progress.report("learning weights", static_cast<double>(round) / options.rounds);
-    std::vector<double> made(counts.size());
+    const std::vector<double> current = weights.weights();
+    Shares shares{};
     int succeeded = 0;
-    for (int trial = 0; trial < kTrials; ++trial) {
+    for (int trial = 0; trial < trials; ++trial) {
       domains = consistent;
-      Search search(puzzle, weights, domains, marks);
-      const auto number = static_cast<std::uint64_t>(round * kTrials + trial);
+      Search search(puzzle, current, domains, marks);
+      const auto number = static_cast<std::uint64_t>(round * trials + trial);
       if (!search.begin(vertices, static_cast<std::uint32_t>(number) + 1)) continue;
       const auto budget = 100 + static_cast<std::int64_t>(vertices.size()) / 50;
-      if (search.run(random.fork(500 + number), budget) != Found::All) continue;
+      const Random draws = random.fork(500 + number);
+      const Found found =
+          options.growth ? search.grow(*options.growth, draws, budget) : search.run(draws, budget);
+      if (found != Found::All) continue;
       ++succeeded;
       if (options.ground) removeFloating(puzzle, consistent, vertices, *options.ground, domains);
-      for (const std::uint32_t v : vertices) {
-        const VertexClass& c = puzzle.classOf(v);
-        forEach(domains[v], [&](std::size_t l) { made[c.figures[l]] += 1; });
-      }
+      const Shares made = sharesIn(puzzle, domains, vertices, classes);
+      for (int c = 0; c < kFigureClasses; ++c) shares[c] += made[c];
     }
     if (succeeded == 0) continue;
-    const Shares shares = sharesOf(classes, made);
-    if (const double factor = largestFactor(shares, wanted); factor < nearest) {
-      nearest = factor;
+    for (double& share : shares) share /= succeeded;
+    if (const double distance = weights.distance(shares); distance < nearest) {
+      nearest = distance;
       best = weights;
     }
-    // A class that is not there at all counts as a quarter of a vertex.
-    const double least = 0.25 / static_cast<double>(vertices.size());
-    for (int c = 0; c < kFigureClasses; ++c) {
-      const double share = wanted[c] > 0 ? wanted[c] : kUnseenShare;
-      const double step = std::pow(share / std::max(shares[c], least), 0.6);
-      factors[c] *= std::clamp(step, 0.3, 3.0);
-      if (wanted[c] <= 0) factors[c] = std::min(factors[c], 1.0);
-    }
-    weights = weighted(classes, counts, factors);
+    weights.adapt(shares, vertices.size());
   }
-  return best;
+  weights = best;
 }
 
 }  // namespace exemplar::continuous

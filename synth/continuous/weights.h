@@ -41,23 +41,46 @@ Shares sharesOf(std::span<const FigureClass> classes, std::span<const double> co
 /// Shares below half a percent count less; a class that should not be there, from two percent on.
 double largestFactor(const Shares& shares, const Shares& wanted);
 
-struct LearnOptions {
-  int rounds = 8;  ///< of trial results, >= 0; 0: weights are the example's counts
-  /// Where given, trial results lose what is not joined to this ground (`removeFloating`).
-  std::optional<Substance> ground;
-  double density = 1;  ///< of all classes but the empty one, in shares of the example's, > 0
-  /// How large solids are, in sizes of the example's, > 0: the larger, the fewer corners, edges and
-  /// faces are around as much.
-  double objectSize = 1;
+/// Weights of figures: how often each is in the example, times a factor for each class that is
+/// adapted until results have the example's shares.
+class ClassWeights {
+ public:
+  /// `density` is of all classes but the empty one, in shares of the example's, > 0; `objectSize`
+  /// is how large solids are, in sizes of the example's, > 0: the larger, the fewer corners, edges
+  /// and faces are around as much.
+  ClassWeights(std::span<const FigureClass> classes, std::span<const double> counts, double density,
+               double objectSize);
+
+  std::vector<double> weights() const;
+  /// How far a result's shares are from those that are wanted (`largestFactor`).
+  double distance(const Shares& shares) const { return largestFactor(shares, wanted_); }
+  /// Classes of which a result has too little become likelier. `vertices` is how many it has.
+  void adapt(const Shares& shares, std::size_t vertices);
+  /// Classes as the example has them, with nothing learned.
+  void forget();
+
+ private:
+  std::span<const FigureClass> classes_;
+  std::span<const double> counts_;
+  double density_;
+  Shares wanted_{}, factors_{};
 };
 
-/// Weights of figures: how often each is in the example, times a factor for each class that is
-/// adapted in trial results of a puzzle until these have the example's shares. `consistent` are the
-/// puzzle's domains, arc consistent. The trials are results of other seeds. Throws `Cancelled`.
-std::vector<double> learnWeights(const Puzzle& puzzle, const Domains& consistent,
-                                 std::span<const std::uint32_t> vertices,
-                                 std::span<const FigureClass> classes,
-                                 std::span<const double> counts, const Random& random,
-                                 const LearnOptions& options, const Progress& progress = {});
+struct LearnOptions {
+  int rounds = 8;  ///< of trial results, >= 0
+  /// Where given, trial results lose what is not joined to this ground (`removeFloating`).
+  std::optional<Substance> ground;
+  const Growth* growth = nullptr;  ///< where given, trial results are grown
+};
+
+/// Adapts weights in trial results of a puzzle. `consistent` are the puzzle's domains, arc
+/// consistent. The trials are results of other seeds. Throws `Cancelled`.
+void learnWeights(ClassWeights& weights, const Puzzle& puzzle, const Domains& consistent,
+                  std::span<const std::uint32_t> vertices, std::span<const FigureClass> classes,
+                  const Random& random, const LearnOptions& options, const Progress& progress = {});
+
+/// Shares of classes among some vertices of a solved puzzle.
+Shares sharesIn(const Puzzle& puzzle, const Domains& solved,
+                std::span<const std::uint32_t> vertices, std::span<const FigureClass> classes);
 
 }  // namespace exemplar::continuous

@@ -56,7 +56,7 @@ void onePass(benchmark::State& state, bool backtracking) {
   std::int64_t complete = 0;
   for (auto _ : state) {
     Domains domains = town.puzzle.domains;
-    Search::Marks marks(town.arrangement.vertices());
+    Search::Marks marks(town.puzzle);
     Search search(town.puzzle, town.weights, domains, marks);
     search.setBacktracking(backtracking);
     search.begin(town.vertices, 1);

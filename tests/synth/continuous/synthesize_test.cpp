@@ -388,7 +388,7 @@ TEST(Search, PropagationKeepsEverySolution) {
     const std::int64_t solutions = countSolutions(small, 0, labels, used);
     EXPECT_GE(solutions, 2) << name;
     Domains domains = small.puzzle.domains;
-    Search::Marks marks(small.arrangement.vertices());
+    Search::Marks marks(small.puzzle);
     const std::vector<double> weights(small.figures.size(), 1);
     Search search(small.puzzle, weights, domains, marks);
     ASSERT_TRUE(search.begin(small.vertices, 1));
@@ -418,7 +418,7 @@ TEST(Search, PropagationKeepsEverySolution) {
 TEST(ExactSearch, AgreesWithTheSearch) {
   Small small("pyramid", {3, 3, 2});
   Domains domains = small.puzzle.domains;
-  Search::Marks marks(small.arrangement.vertices());
+  Search::Marks marks(small.puzzle);
   const std::vector<double> weights(small.figures.size(), 1);
   Search search(small.puzzle, weights, domains, marks);
   ASSERT_TRUE(search.begin(small.vertices, 1));
