@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -359,6 +360,21 @@ inline DistanceField terrain(int side = 96, std::uint64_t seed = 0) {
                                     0.14 * std::abs(shapeNoise(q, side / 6.0, seed + 1)) +
                                     0.05 * shapeNoise(q, side / 14.0, seed + 2));
     return (p.z - height) * 0.85;
+  });
+}
+
+/// A wall with battlements at equal distances and towers at these places, in a box of this length:
+/// no kind of example, but one with a landmark.
+inline DistanceField castle(int length, std::initializer_list<double> towers) {
+  return shapeField({length, 32, 48}, [&](const Vec3d& p) {
+    double d = boxDistance(p, {4, 12, 3}, {length - 5.0, 19, 16});
+    d = std::min(d, std::max(boxDistance(p, {4, 12, 15}, {length - 5.0, 19, 19}),
+                             std::abs(std::fmod(p.x, 6.0) - 3) - 1.5));
+    for (const double x : towers) {
+      d = std::min(d, columnDistance(p, x, 15.5, 3, 30, 7));
+      d = std::min(d, std::max(std::hypot(p.x - x, p.y - 15.5) - 0.7 * (43 - p.z), 30 - p.z));
+    }
+    return d;
   });
 }
 

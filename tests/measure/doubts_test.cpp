@@ -74,6 +74,18 @@ TEST(Doubts, OfPlantedFaults) {
   EXPECT_THAT(doubts(tree, testing::emptyField(tree.size())), IsEmpty());  // a collapse
 }
 
+TEST(Doubts, OfALandmarkThatOccursTooOften) {
+  const DistanceField one = testing::castle(66, {30});
+  EXPECT_THAT(doubts(one, testing::castle(132, {20, 50, 80, 110})), Contains(Doubt::Repeated));
+  // Of its own size, a second tower is one too many; twice as long, two may be.
+  EXPECT_THAT(doubts(one, testing::castle(66, {18, 48})), Contains(Doubt::Repeated));
+  EXPECT_THAT(doubts(one, testing::castle(132, {30, 96})), Not(Contains(Doubt::Repeated)));
+  EXPECT_THAT(doubts(one, testing::castle(132, {90})), Not(Contains(Doubt::Repeated)));
+  const DoubtSigns signs =
+      doubtSigns(Occupancy(one), Occupancy(testing::castle(132, {20, 50, 80, 110})));
+  EXPECT_THAT(doubtSentence(Doubt::Repeated, signs), HasSubstr("up to 4 times"));
+}
+
 TEST(Doubts, SayWhatIsWrongByFigures) {
   const DistanceField vase = testing::vase();
   const auto sentence = [&](Doubt doubt, const DistanceField& result) {

@@ -5,9 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <initializer_list>
-
 #include "tests/example_shapes.h"
 #include "tests/measure/fields.h"
 #include "tests/planted_faults.h"
@@ -16,21 +13,8 @@
 namespace exemplar {
 namespace {
 
+using testing::castle;
 using testing::makeField;
-
-/// A wall with battlements at equal distances and towers at these places, in a box of this length.
-DistanceField castle(int length, std::initializer_list<double> towers) {
-  return makeField({length, 32, 48}, [&](const Vec3d& p) {
-    double d = testing::boxDistance(p, {4, 12, 3}, {length - 5.0, 19, 16});
-    d = std::min(d, std::max(testing::boxDistance(p, {4, 12, 15}, {length - 5.0, 19, 19}),
-                             std::abs(std::fmod(p.x, 6.0) - 3) - 1.5));
-    for (const double x : towers) {
-      d = std::min(d, testing::columnDistance(p, x, 15.5, 3, 30, 7));
-      d = std::min(d, std::max(std::hypot(p.x - x, p.y - 15.5) - 0.7 * (43 - p.z), 30 - p.z));
-    }
-    return d;
-  });
-}
 
 Landmarks counted(const DistanceField& example, const DistanceField& result) {
   return countLandmarks(Occupancy(example), Occupancy(result));
