@@ -14,6 +14,7 @@
 #include "apps/command.h"
 #include "apps/help.h"
 #include "apps/terminal.h"
+#include "apps/world_server.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
@@ -24,6 +25,7 @@
 #include "engine/output.h"
 #include "engine/words.h"
 #include "engine/world_tiles.h"
+#include "engine/world_tileset.h"
 
 namespace exemplar {
 namespace {
@@ -36,7 +38,7 @@ struct Options {
   std::optional<int> side, window, height;
   bool cached = false;
   double remake = 1;
-  PictureOptions picture;
+  WorldServerOptions server;
 };
 
 World openWorld(const Options& options, Terminal& terminal) {
@@ -277,21 +279,32 @@ void index(const Options& options, Terminal& terminal) {
   for (const ListedTile& tile : tiles)
     list.push_back({{"tile", {tile.tile.x, tile.tile.y}}, {"endings", tile.endings}});
   const std::filesystem::path path = world.folder() / "index.json";
-  const Example& example = world.examples().front();
-  const double side = world.file().tile;
-  Vec3d size{side, side, 0};
-  if (example.form() == Form::Heights) {
-    size = size * example.heights().cellSize;
-  } else {
-    const Vec3d& cell = example.labels().cellSize;
-    size = {side * cell.x, side * cell.y, world.file().height * cell.z};
-  }
+  const Vec3d size = world.tileSize();
   writeFile(path, jsonText(Json{{"id", hashText(world.file().id())},
                                 {"tile_size", {size.x, size.y, size.z}},
                                 {"tiles", list}},
                            1) +
                       "\n");
   terminal.wrote("index", path, path.string() + ": " + counted(tiles.size(), "tile"));
+  const WrittenTileset tileset = writeTileset(world, tiles);
+  if (tileset.tiles == 0) return;
+  const std::filesystem::path root = world.folder() / "tileset.json";
+  terminal.wrote("tileset", root,
+                 root.string() + ": " + withThousands(tileset.tiles) + " tiles in " +
+                     counted(static_cast<std::size_t>(tileset.files), "file") + ", 3D Tiles 1.1");
+}
+
+void serve(const Options& options, Terminal& terminal) {
+  if (!canServe()) serveWorld(World(options.world), {}, {}, {});
+  const World world = openWorld(options, terminal);
+  serveWorld(
+      world, options.server,
+      [&](const std::string& address) {
+        terminal.wipe();
+        terminal.say("serving", options.world + " at " + address + "; Ctrl-C ends it");
+        std::fflush(stdout);
+      },
+      terminal.progress().part(0.02, 1));
 }
 
 void addWorld(CLI::App& command, Options& options) {
@@ -415,8 +428,33 @@ std::vector<Command> addWorldCommands(CLI::App& app) {
         ->required();
     addCache(command, o);
   });
-  add("index", "List the tiles that are there, in index.json", index,
+  add("index",
+      "List the tiles that are there, in index.json, and those with a .glb in tileset.json", index,
       [](CLI::App& command, Options& o) { addWorld(command, o); });
+  add("serve", "Make tiles when they are asked for, and show a page that flies over them", serve,
+      [](CLI::App& command, Options& o) {
+        addWorld(command, o);
+        command
+            .add_option("--port", o.server.port, "where to listen; 0: any port that is free (8700)")
+            ->check(CLI::Range(0, 65535))
+            ->option_text("N");
+        command
+            .add_option("--host", o.server.host,
+                        "the address to listen at; others than this machine's own show the "
+                        "world to whoever reaches it (127.0.0.1)")
+            ->option_text("ADDRESS");
+        command
+            .add_option("--waiting", o.server.waiting,
+                        "how many requests may wait for a tile that is being made (8)")
+            ->check(CLI::Range(0, 1000))
+            ->option_text("N");
+        command
+            .add_option("--most", o.server.most,
+                        "how many tiles are made, and kept in the world's folder, at most (4096)")
+            ->check(CLI::NonNegativeNumber)
+            ->option_text("N");
+        addCache(command, o);
+      });
   return commands;
 }
 

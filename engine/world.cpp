@@ -352,6 +352,14 @@ const WorldFile& World::file() const { return state_->file; }
 const fs::path& World::folder() const { return state_->folder; }
 std::span<const Example> World::examples() const { return state_->examples; }
 
+Vec3d World::tileSize() const {
+  const Example& example = state_->examples.front();
+  const double side = state_->file.tile;
+  if (example.form() == Form::Heights) return Vec3d{side, side, 0} * example.heights().cellSize;
+  const Vec3d& cell = example.labels().cellSize;
+  return {side * cell.x, side * cell.y, state_->file.height * cell.z};
+}
+
 fs::path World::tilePath(const PlanePoint& tile, const std::string& ending) const {
   return state_->folder / "tiles" / "0" / std::to_string(tile.x) /
          (std::to_string(tile.y) + ending);

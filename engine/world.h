@@ -86,6 +86,9 @@ class World {
   const WorldFile& file() const;
   const std::filesystem::path& folder() const;
   std::span<const Example> examples() const;
+  /// Of a tile, world units: what one is to be moved by for each number along x and y; along z its
+  /// height, 0 of heights.
+  Vec3d tileSize() const;
   /// Where a tile's file with an ending (".glb") is.
   std::filesystem::path tilePath(const PlanePoint& tile, const std::string& ending) const;
 
