@@ -14,6 +14,7 @@
 #include "apps/command.h"
 #include "apps/help.h"
 #include "apps/terminal.h"
+#include "apps/world_server.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
@@ -24,26 +25,21 @@
 #include "engine/output.h"
 #include "engine/words.h"
 #include "engine/world_tiles.h"
+#include "engine/world_tileset.h"
 
 namespace exemplar {
 namespace {
 
 struct Options {
   std::string example, engine, world, tile, region, tilesFile, output, as = "json";
-  std::string formats = "glb";
+  std::string formats;
   Settings settings;
-  int side = 72, window = 36, job = 4;
-  std::optional<int> height;
+  int job = 4;
+  std::optional<int> side, window, height;
   bool cached = false;
   double remake = 1;
-  PictureOptions picture;
+  WorldServerOptions server;
 };
-
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
-  return text;
-}
 
 World openWorld(const Options& options, Terminal& terminal) {
   return World(options.world, options.cached, terminal.progress().part(0, 0.02));
@@ -51,9 +47,11 @@ World openWorld(const Options& options, Terminal& terminal) {
 
 std::string describe(const World& world) {
   const WorldFile& file = world.file();
+  const bool heights = world.examples().front().form() == Form::Heights;
   return file.example + ", engine " + file.engine + ", seed " + std::to_string(file.seed) +
-         ", tiles of " + std::to_string(file.tile) + " x " + std::to_string(file.tile) + " x " +
-         std::to_string(file.height) + " cells";
+         ", tiles of " + std::to_string(file.tile) + " x " + std::to_string(file.tile) +
+         (heights ? std::string(" points, and those that they share with the next")
+                  : " x " + std::to_string(file.height) + " cells");
 }
 
 void init(const Options& options, Terminal& terminal) {
@@ -69,13 +67,7 @@ void init(const Options& options, Terminal& terminal) {
     terminal.say("there", "it was made before");
     return;
   }
-  terminal.say("start", percent(created.labelsShown) +
-                            " of the example's labels; shares of labels "
-                            "differ from the example's by " +
-                            percent(created.shareDifference));
-  if (created.labelsShown < 0.9)
-    terminal.warn("this world shows " + percent(created.labelsShown) +
-                  " of the example's labels; the others only fit beside the example's sides");
+  for (const auto& [label, text] : created.notes) terminal.say(label, text);
   const double cold = created.costs.coldSeconds, warm = created.costs.warmSeconds;
   terminal.say("tiles", readableSeconds(cold) + " for one alone, " + readableSeconds(warm) +
                             " for the next one; a region of 100 x 100 tiles takes about " +
@@ -91,13 +83,15 @@ void tile(const Options& options, Terminal& terminal) {
     path = world.tilePath(at, tileEndings(world, options.formats).front());
     std::filesystem::create_directories(path.parent_path());
   } else {
-    requireOutput(path, outputEndings(Form::Labels));
+    requireOutput(path, tileEndings(world));
     tileEndings(world, lowerExtension(path));
   }
   world.requireSameBytes(terminal.progress().part(0.02, 0.1));
   const Stopwatch watch;
   const Result made = world.tile(at, terminal.progress().part(0.1, 0.8));
-  writeTile(world, at, made, path, terminal.progress().part(0.8, 1));
+  for (const std::string& warning :
+       writeTile(world, at, made, path, terminal.progress().part(0.8, 1)))
+    terminal.warn(warning);
   terminal.wrote("tile", path,
                  path.string() + ": " + readableExtent(made) + ", content " +
                      hashText(World::hashOf(made)) + ", in " + readableSeconds(watch.seconds()));
@@ -159,6 +153,7 @@ void make(const Options& options, Terminal& terminal) {
     sum.there += made.there;
     sum.made += made.made;
     sum.failed.insert(sum.failed.end(), made.failed.begin(), made.failed.end());
+    if (sum.warnings.empty()) sum.warnings = made.warnings;
   }
   std::string text = counted(static_cast<std::size_t>(sum.made), "tile") + " made";
   if (sum.there > 0) text += ", " + withThousands(sum.there) + " were there";
@@ -169,6 +164,7 @@ void make(const Options& options, Terminal& terminal) {
     text += rate;
   }
   terminal.say("tiles", text);
+  for (const std::string& warning : sum.warnings) terminal.warn(warning);
   terminal.say("memory", readableBytes(static_cast<double>(peakResidentBytes())) + " at its peak");
   if (sum.failed.empty()) return;
   std::string which;
@@ -197,8 +193,9 @@ void plan(const Options& options, Terminal& terminal) {
   const std::vector<PlaneBox> jobs = jobsOf(region, options.job);
   const auto rest = [&](const std::string& range) {
     return "world make " + quoted(options.world) + " --region " + range + " --formats " +
-           quoted(options.formats) + " --job " + std::to_string(options.job) +
-           (options.cached ? " --cache" : "") + " --quiet --progress none";
+           quoted(options.formats.empty() ? usualFormat(world) : options.formats) + " --job " +
+           std::to_string(options.job) + (options.cached ? " --cache" : "") +
+           " --quiet --progress none";
   };
   std::string text;
   if (options.as == "json") {
@@ -236,8 +233,14 @@ void check(const Options& options, Terminal& terminal) {
   const CheckedTiles found =
       checkTiles(world, region, {options.remake}, terminal.progress().part(0.02, 1));
   terminal.say("content", withThousands(found.tiles) + " tiles, " + hashText(found.hash));
-  terminal.say("pairs", withThousands(found.pairs) + " of neighbors, " +
-                            withThousands(found.violations) + " that the example does not show");
+  const bool heights = world.examples().front().form() == Form::Heights;
+  if (heights) {
+    terminal.say("shared", withThousands(found.pairs) + " points of two tiles, " +
+                               withThousands(found.violations) + " not at one height");
+  } else {
+    terminal.say("pairs", withThousands(found.pairs) + " of neighbors, " +
+                              withThousands(found.violations) + " that the example does not show");
+  }
   terminal.say("files", withThousands(found.files) + ", " + withThousands(found.remade) +
                             " of them made again, " + withThousands(std::ssize(found.different)) +
                             " not the same bytes");
@@ -254,7 +257,7 @@ void check(const Options& options, Terminal& terminal) {
 void exportRegion(const Options& options, Terminal& terminal) {
   const PlaneBox region = parseTileRange(options.region);
   const World world = openWorld(options, terminal);
-  requireOutput(options.output, outputEndings(Form::Labels));
+  requireOutput(options.output, tileEndings(world));
   tileEndings(world, lowerExtension(options.output));
   world.requireSameBytes(terminal.progress().part(0.02, 0.1));
   const Result result = world.tiles(region, terminal.progress().part(0.1, 0.7));
@@ -276,16 +279,32 @@ void index(const Options& options, Terminal& terminal) {
   for (const ListedTile& tile : tiles)
     list.push_back({{"tile", {tile.tile.x, tile.tile.y}}, {"endings", tile.endings}});
   const std::filesystem::path path = world.folder() / "index.json";
-  const LabelGrid& example = world.examples().front().labels();
+  const Vec3d size = world.tileSize();
   writeFile(path, jsonText(Json{{"id", hashText(world.file().id())},
-                                {"tile_size",
-                                 {world.file().tile * example.cellSize.x,
-                                  world.file().tile * example.cellSize.y,
-                                  world.file().height * example.cellSize.z}},
+                                {"tile_size", {size.x, size.y, size.z}},
                                 {"tiles", list}},
                            1) +
                       "\n");
   terminal.wrote("index", path, path.string() + ": " + counted(tiles.size(), "tile"));
+  const WrittenTileset tileset = writeTileset(world, tiles);
+  if (tileset.tiles == 0) return;
+  const std::filesystem::path root = world.folder() / "tileset.json";
+  terminal.wrote("tileset", root,
+                 root.string() + ": " + withThousands(tileset.tiles) + " tiles in " +
+                     counted(static_cast<std::size_t>(tileset.files), "file") + ", 3D Tiles 1.1");
+}
+
+void serve(const Options& options, Terminal& terminal) {
+  if (!canServe()) serveWorld(World(options.world), {}, {}, {});
+  const World world = openWorld(options, terminal);
+  serveWorld(
+      world, options.server,
+      [&](const std::string& address) {
+        terminal.wipe();
+        terminal.say("serving", options.world + " at " + address + "; Ctrl-C ends it");
+        std::fflush(stdout);
+      },
+      terminal.progress().part(0.02, 1));
 }
 
 void addWorld(CLI::App& command, Options& options) {
@@ -302,7 +321,7 @@ void addRegion(CLI::App& command, Options& options, bool required) {
 void addFormats(CLI::App& command, Options& options) {
   command
       .add_option("--formats", options.formats,
-                  "what tiles are written to: glb,txt,vox,vdb,... (" + options.formats + ")")
+                  "what tiles are written to: glb,txt,vox,vdb,... (glb; of heights tif)")
       ->option_text("LIST");
 }
 void addCache(CLI::App& command, Options& options) {
@@ -334,15 +353,20 @@ std::vector<Command> addWorldCommands(CLI::App& app) {
   add("init", "Make a world of an example", init, [](CLI::App& command, Options& o) {
     command
         .add_option("EXAMPLE", o.example,
-                    "a grid of labels, a scene of pieces, a picture, or a mesh with a `cell`")
+                    "a grid of labels, a scene of pieces, a picture, a mesh with a `cell`, or a "
+                    "height map")
         ->required();
     command.add_option("-o,--output", o.output, "the world's folder, which is made")->required();
-    command.add_option("--engine", o.engine, "what makes it (auto: model)")
-        ->option_text("auto|model");
-    command.add_option("--tile", o.side, "columns along each side of a tile (72)")
-        ->check(CLI::Range(8, 1024));
-    command.add_option("--window", o.window, "columns from one window to the next (36)")
-        ->check(CLI::Range(12, 512));
+    command
+        .add_option("--engine", o.engine,
+                    "what makes it (auto: terrain of a height map, else model)")
+        ->option_text("auto|model|terrain");
+    command.add_option("--tile", o.side, "columns along each side of a tile (72; of heights 256)")
+        ->check(CLI::Range(8, kMostTileSide));
+    command
+        .add_option("--window", o.window,
+                    "columns from one window to the next (36; of heights 384)")
+        ->check(CLI::Range(12, 1024));
     command.add_option("--height", o.height, "cells (as many as the example has)")
         ->check(CLI::Range(1, 1024));
     SettingOptions settings;
@@ -352,7 +376,9 @@ std::vector<Command> addWorldCommands(CLI::App& app) {
     settings.add("Request", "", seed);
     settings.add("Reading labels, or a mesh or picture cut into labels", "",
                  readingSettings(Form::Labels).settings());
+    settings.add("Reading a height map", "", readingSettings(Form::Heights).settings());
     settings.add("Engine model", "", engineNamed("model").settings());
+    settings.add("Engine terrain", "", engineNamed("terrain").settings());
     settings.install(command, o.settings);
   });
   add("tile", "Make one tile, alone", tile, [](CLI::App& command, Options& o) {
@@ -398,14 +424,37 @@ std::vector<Command> addWorldCommands(CLI::App& app) {
   add("export", "Write a region as one file", exportRegion, [](CLI::App& command, Options& o) {
     addWorld(command, o);
     addRegion(command, o, true);
-    command
-        .add_option("-o,--output", o.output,
-                    std::string("the file to write: ") + kLabelOutputEndings)
+    command.add_option("-o,--output", o.output, "the file to write, one that tiles are written to")
         ->required();
     addCache(command, o);
   });
-  add("index", "List the tiles that are there, in index.json", index,
+  add("index",
+      "List the tiles that are there, in index.json, and those with a .glb in tileset.json", index,
       [](CLI::App& command, Options& o) { addWorld(command, o); });
+  add("serve", "Make tiles when they are asked for, and show a page that flies over them", serve,
+      [](CLI::App& command, Options& o) {
+        addWorld(command, o);
+        command
+            .add_option("--port", o.server.port, "where to listen; 0: any port that is free (8700)")
+            ->check(CLI::Range(0, 65535))
+            ->option_text("N");
+        command
+            .add_option("--host", o.server.host,
+                        "the address to listen at; others than this machine's own show the "
+                        "world to whoever reaches it (127.0.0.1)")
+            ->option_text("ADDRESS");
+        command
+            .add_option("--waiting", o.server.waiting,
+                        "how many requests may wait for a tile that is being made (8)")
+            ->check(CLI::Range(0, 1000))
+            ->option_text("N");
+        command
+            .add_option("--most", o.server.most,
+                        "how many tiles are made, and kept in the world's folder, at most (4096)")
+            ->check(CLI::NonNegativeNumber)
+            ->option_text("N");
+        addCache(command, o);
+      });
   return commands;
 }
 

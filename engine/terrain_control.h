@@ -40,6 +40,10 @@ CoarseTerrain readCoarseTerrain(const std::string& file, const Example& example,
 Grid<float> readTerrainGuide(const Source& source, std::span<const Grid<float>> examples,
                              double cellSize, int width, int height, const Progress& progress = {});
 
+/// What the settings of the engine terrain say that holds for any part of a result. Throws
+/// `InputError` naming those that speak of a whole.
+TerrainSynthesisOptions localTerrainOptions(const Request& request);
+
 /// What stays: of the example what `keep` paints white, where `at` puts it, and of `base` what
 /// `mask` paints black, with a transition of `blend` points beside it. Throws `InputError`.
 void readHeld(const std::optional<Source>& keep, const TerrainFiles& files, const Example& example,

@@ -231,6 +231,23 @@ class TerrainEngine final : public Engine {
 
 }  // namespace
 
+TerrainSynthesisOptions localTerrainOptions(const Request& request) {
+  for (const char* key :
+       {"fill", "keep-holes", "detail-of", "keep-at", "mask", "base", "blend", "follow"}) {
+    if (request.settings.has(key))
+      throw InputError("`" + std::string(key) +
+                       "`: speaks of a whole map, and a world has no end; leave it out");
+  }
+  if (request.periodic.any() || request.decided.keep || request.guide)
+    throw InputError(
+        "`periodic`, `keep` and `guide` speak of a whole map, and a world has no end; "
+        "leave them out");
+  TerrainSettings settings;
+  terrainSettings().apply(request.settings, settings);
+  settings.synthesis.seed = request.seed;
+  return settings.synthesis;
+}
+
 const Engine& terrainEngine() {
   static const TerrainEngine engine;
   return engine;

@@ -5,19 +5,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
-#include <set>
 #include <utility>
 
-#include "core/cells.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "engine/model_request.h"
 #include "engine/words.h"
+#include "engine/world_content.h"
+#include "maps/height_map_file.h"
 #include "mesh/mesh_file.h"
 #include "mesh/scene.h"
-#include "synth/model/label_world.h"
+#include "synth/terrain/height_world.h"
 #include "voxelize/label_file.h"
 
 namespace exemplar {
@@ -25,13 +23,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kStartFile = "start.vdb";
-
 /// What an engine needs of the settings that speak of reading the example.
 ReadOptions readingOf(const Settings& settings, Form form) {
   ReadOptions reading;
   reading.form = form;
   readingSettings(form).apply(settings, reading);
+  // The example that a world keeps says these itself.
+  if (form == Form::Heights) reading.cellSize = reading.heightScale = std::nullopt;
   checkReading(reading);
   return reading;
 }
@@ -44,17 +42,37 @@ Settings engineSettings(const Settings& settings, Form form) {
   return own;
 }
 
+struct Sizes {
+  int tile, window;  ///< where nothing is said
+  int leastWindow, mostWindow;
+};
+/// Of the worlds of an engine; nothing where it makes none.
+std::optional<Sizes> worldSizes(const Engine& engine) {
+  if (engine.name() == "model") return Sizes{72, 36, 12, 512};
+  if (engine.name() == "terrain") return Sizes{256, 384, kLeastHeightWindow, kMostHeightWindow};
+  return std::nullopt;
+}
+
 /// Refuses what no world can meet, before anything is read.
 void checkRequest(const WorldRequest& request, const Engine& engine) {
-  if (engine.name() != "model")
+  const std::optional<Sizes> sizes = worldSizes(engine);
+  if (!sizes)
     throw InputError("the engine " + std::string(engine.name()) +
-                     " makes no worlds; only model does, of labels and scenes of pieces");
-  if (request.tile < 8 || request.tile > 1024)
-    throw InputError("`tile` " + std::to_string(request.tile) + ": expected 8 to 1024 columns");
-  if (request.window < 12 || request.window > 512)
-    throw InputError("`window` " + std::to_string(request.window) + ": expected 12 to 512 columns");
+                     " makes no worlds; model does, of labels and scenes of pieces, and terrain, "
+                     "of height maps");
+  if (request.tile && (*request.tile < 8 || *request.tile > kMostTileSide))
+    throw InputError("`tile` " + std::to_string(*request.tile) + ": expected 8 to " +
+                     std::to_string(kMostTileSide) + " columns");
+  if (request.window &&
+      (*request.window < sizes->leastWindow || *request.window > sizes->mostWindow)) {
+    throw InputError("`window` " + std::to_string(*request.window) + ": expected " +
+                     std::to_string(sizes->leastWindow) + " to " +
+                     std::to_string(sizes->mostWindow) + " columns");
+  }
   if (request.height && (*request.height < 1 || *request.height > 1024))
     throw InputError("`height` " + std::to_string(*request.height) + ": expected 1 to 1024 cells");
+  if (request.height && engine.form() == Form::Heights)
+    throw InputError("`height`: heights have no layers; leave it out");
   checkSettings(engine, request.settings);
   for (const char* key : {"scale", "size"})
     if (request.settings.has(key))
@@ -75,7 +93,7 @@ void checkRequest(const WorldRequest& request, const Engine& engine) {
 
 /// The example as one file that needs no other: meshes that name others become .glb. Returns its
 /// name, and takes from `settings` what that has settled.
-std::string keepExample(const Source& source, Settings& settings, const fs::path& folder,
+std::string keepExample(const Source& source, Form form, Settings& settings, const fs::path& folder,
                         const Progress& progress) {
   const SourceKind kind = sourceKind(source);
   const std::string ending = lowerExtension(source.path());
@@ -83,6 +101,16 @@ std::string keepExample(const Source& source, Settings& settings, const fs::path
   if (const auto* grid = source.inMemory<LabelGrid>()) {
     writeLabelsVdb(folder / (stem + ".vdb"), *grid, progress);
     return stem + ".vdb";
+  }
+  if (form == Form::Heights) {
+    // With what the settings and a file beside it say of it.
+    ReadOptions reading;
+    readingSettings(form).apply(settings, reading);
+    reading.form = form;
+    Example example = readExample(source, reading, progress);
+    std::get<HeightMap>(example.data).cellSizeKnown = true;
+    writeHeightMap(folder / (stem + ".tif"), example.heights());
+    return stem + ".tif";
   }
   if (kind == SourceKind::Mesh && ending != ".glb" && ending != ".stl" && ending != ".off") {
     MeshFileOptions options;
@@ -101,16 +129,6 @@ std::string keepExample(const Source& source, Settings& settings, const fs::path
   return name;
 }
 
-std::uint64_t hashOfLabels(const LabelGrid& grid) {
-  const Vec3i n = grid.size();
-  std::string bytes;
-  bytes.reserve(grid.cells.count() * sizeof(Label) + sizeof n);
-  bytes.append(reinterpret_cast<const char*>(&n), sizeof n);
-  bytes.append(reinterpret_cast<const char*>(grid.cells.values().data()),
-               grid.cells.count() * sizeof(Label));
-  return contentHash(bytes);
-}
-
 double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -121,15 +139,13 @@ struct World::State {
   fs::path folder;
   WorldFile file;
   std::vector<Example> examples;
-  std::vector<LabelGrid> grids;
-  Adjacency adjacency;
-  ModelOptions options;
   std::unique_ptr<WindowCache> cache;
-  std::unique_ptr<LabelWorld> labels;
+  std::unique_ptr<WorldContent> content;
 
   void readExample(const Progress& progress);
-  void begin(LabelGrid start, bool cached);
-  Result resultOf(LabelGrid grid) const;
+  void begin(bool cached, const Progress& progress);
+  /// The columns of a range of tiles, and those that they share with the next ones.
+  PlaneBox columnsOf(const PlaneBox& tiles) const;
 };
 
 /// Reads the example that the world keeps, and what is asked of the engine.
@@ -140,36 +156,24 @@ void World::State::readExample(const Progress& progress) {
   const Engine& engine = engineNamed(file.engine);
   const Source source(path);
   examples = readExamples({&source, 1}, readingOf(file.settings, engine.form()), progress);
-  ModelSettings settings;
-  Request request;
-  request.settings = engineSettings(file.settings, engine.form());
+  Request request = requestOf(engineSettings(file.settings, engine.form()));
   request.seed = file.seed;
-  request = requestOf(request.settings);
-  request.seed = file.seed;
-  if (file.height == 0) file.height = cellsOfExample(examples.front()).z;
-  request.extent.size = Vec3i{file.window, file.window, file.height};
-  engine.check(request, 1);
-  modelSettings().apply(request.settings, settings);
-  options = modelOptions(request, settings, examples.front());
-  requireLocal(options);
-  adjacency = adjacencyOf(examples, adjacencyOptions(settings));
-  grids = modelGrids(examples);
+  content = engine.form() == Form::Heights ? heightWorldContent(examples, file, request)
+                                           : labelWorldContent(examples, file, request);
 }
 
-void World::State::begin(LabelGrid start, bool cached) {
+void World::State::begin(bool cached, const Progress& progress) {
   WindowCacheOptions keeping;
   if (cached) keeping.folder = folder / "cache";
   cache = std::make_unique<WindowCache>(file.id(), keeping);
-  labels = std::make_unique<LabelWorld>(grids, adjacency, options, std::move(start),
-                                        WindowLattice{.pitch = file.window}, *cache);
+  content->begin(*cache, progress);
 }
 
-Result World::State::resultOf(LabelGrid grid) const {
-  Result result;
-  result.engine = file.engine;
-  result.seed = file.seed;
-  result.data = std::move(grid);
-  return result;
+PlaneBox World::State::columnsOf(const PlaneBox& tiles) const {
+  PlaneBox box = columnsOfTiles(tiles, file.tile);
+  box.end.x += content->shared();
+  box.end.y += content->shared();
+  return box;
 }
 
 World::World(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -182,11 +186,11 @@ World::World(const fs::path& folder, bool cached, const Progress& progress)
   state_->folder = folder;
   state_->file = readWorldFile(folder);
   state_->readExample(progress);
-  const fs::path path = folder / "example" / kStartFile;
-  LabelGrid start = readLabelsVdb(path, progress);
-  if (hashOfLabels(start) != state_->file.startHash || start.size().z != state_->file.height)
-    throw InputError(path.string() + ": is not what the world begins with; make the world anew");
-  state_->begin(std::move(start), cached);
+  state_->content->readStart(folder / "example", progress);
+  if (state_->content->startHash() != state_->file.startHash)
+    throw InputError((folder / "example").string() +
+                     ": what the world begins with is not what it was; make the world anew");
+  state_->begin(cached, progress);
 }
 
 namespace {
@@ -230,8 +234,9 @@ World::Created World::create(const fs::path& folder, const WorldRequest& request
   file.program = EXEMPLAR_VERSION;
   file.engine = engine.name();
   file.seed = requestOf(request.settings).seed;
-  file.tile = request.tile;
-  file.window = request.window;
+  const Sizes usual = *worldSizes(engine);
+  file.tile = request.tile.value_or(usual.tile);
+  file.window = request.window.value_or(usual.window);
   file.height = request.height.value_or(0);
   file.settings = request.settings;
   file.settings.remove("seed");
@@ -257,44 +262,33 @@ World::Created World::create(const fs::path& folder, const WorldRequest& request
   if (fs::exists(folder, error) && !fs::is_empty(folder, error))
     throw InputError(folder.string() + ": is not empty, and holds no world; choose another folder");
   Draft draft(folder);
-  file.example =
-      keepExample(request.example, file.settings, folder / "example", progress.part(0, 0.02));
+  file.example = keepExample(request.example, engine.form(), file.settings, folder / "example",
+                             progress.part(0, 0.02));
   file.exampleHash = contentHash(readFile(folder / "example" / file.example));
   state->readExample(progress.part(0.02, 0.1));
   created.warnings = state->examples.front().warnings;
 
-  ModelResult start =
-      labelWorldStart(state->grids, state->adjacency, state->options, progress.part(0.1, 0.7));
-  if (start.outcome != Outcome::Complete) {
-    created.outcome = start.outcome;
-    const std::string name = request.example.name();
-    created.why = start.outcome == Outcome::Impossible
-                      ? "no part of " + name +
-                            " repeats over the plane, so that a world has nothing to begin with (" +
-                            start.conflict.text + "); give synth a `size` instead"
-                      : "no part of " + name +
-                            " was found within the budget that repeats over the plane; try another "
-                            "`seed` or a larger `budget`, or give synth a `size`";
-    return created;
-  }
-  created.shareDifference = shareDifference(start.grid(), state->grids);
-  std::set<Label> shown(start.grid().cells.values().begin(), start.grid().cells.values().end());
-  std::set<Label> all;
-  for (const LabelGrid& grid : state->grids)
-    all.insert(grid.cells.values().begin(), grid.cells.values().end());
-  created.labelsShown = static_cast<double>(shown.size()) / static_cast<double>(all.size());
+  WorldContent::Start start = state->content->makeStart(folder / "example", request.example.name(),
+                                                        progress.part(0.1, 0.6));
+  created.outcome = start.outcome;
+  created.why = std::move(start.why);
+  if (created.outcome != Outcome::Complete) return created;
+  created.notes = std::move(start.notes);
+  created.warnings.insert(created.warnings.end(), start.warnings.begin(), start.warnings.end());
 
-  writeLabelsVdb(folder / "example" / kStartFile, start.grid());
-  file.startHash = hashOfLabels(start.grid());
+  file.startHash = state->content->startHash();
   file.fingerprint = machineFingerprint();
-  state->begin(std::move(start.frames.front()), false);
+  state->begin(false, progress.part(0.6, 0.7));
   World world(std::move(state));
   auto began = std::chrono::steady_clock::now();
   world.state_->file.canary = hashOf(world.tile({0, 0}, progress.part(0.7, 0.9)));
   created.costs.coldSeconds = secondsSince(began);
+  // One whose last windows are new; smaller tiles share them.
+  const int window = world.file().window, side = world.file().tile;
   began = std::chrono::steady_clock::now();
-  world.tile({1, 0}, progress.part(0.9, 1));
-  created.costs.warmSeconds = secondsSince(began);
+  world.tile({1 + (window - 1) / side, 0}, progress.part(0.9, 1));
+  const double share = std::min(1.0, static_cast<double>(side) / window);
+  created.costs.warmSeconds = share * share * secondsSince(began);
   writeWorldFile(folder, world.file());
   draft.keep();
   created.world.emplace(std::move(world));
@@ -314,32 +308,30 @@ Result World::around(const PlaneBox& tiles, int columns, const Progress& progres
     if (tiles.begin[axis] < -kMostTiles || tiles.end[axis] > kMostTiles)
       parseTileRange(tileRangeText(tiles));  // says which there are
   }
-  PlaneBox box = columnsOfTiles(tiles, state_->file.tile);
+  PlaneBox box = state_->columnsOf(tiles);
   for (int axis = 0; axis < 2; ++axis) {
     box.begin[axis] -= columns;
     box.end[axis] += columns;
   }
-  LabelGrid grid = state_->labels->region(box, progress);
-  for (int axis = 0; axis < 2; ++axis) grid.origin[axis] -= columns * grid.cellSize[axis];
-  return state_->resultOf(std::move(grid));
+  Result result = state_->content->region(box, progress);
+  if (result.form() == Form::Labels && columns > 0) {
+    auto& grid = std::get<LabelGrid>(result.data);
+    for (int axis = 0; axis < 2; ++axis) grid.origin[axis] -= columns * grid.cellSize[axis];
+  }
+  return result;
 }
 
 Result World::tileOf(const Result& result, const PlaneBox& tiles, const PlanePoint& tile) const {
-  const LabelGrid& whole = result.labels();
-  const int side = state_->file.tile;
-  LabelGrid grid;
-  grid.labels = whole.labels;
-  grid.cellSize = whole.cellSize;
-  grid.origin = whole.origin;
-  grid.name = whole.name;
-  grid.cells = Array3D<Label>({side, side, whole.size().z}, 0);
-  const Vec3i from{static_cast<int>((tile.x - tiles.begin.x) * side),
-                   static_cast<int>((tile.y - tiles.begin.y) * side), 0};
-  forEachCell(grid.size(), [&](const Vec3i& p) { grid.cells[p] = whole.cells[from + p]; });
-  return state_->resultOf(std::move(grid));
+  return state_->content->partOf(result, state_->columnsOf(tiles),
+                                 state_->columnsOf({tile, {tile.x + 1, tile.y + 1}}));
 }
 
-std::uint64_t World::hashOf(const Result& result) { return hashOfLabels(result.labels()); }
+std::uint64_t World::hashOf(const Result& result) {
+  return result.form() == Form::Heights ? contentHashOf(result.heights().heights)
+                                        : contentHashOf(result.labels());
+}
+
+int World::shared() const { return state_->content->shared(); }
 
 void World::requireSameBytes(const Progress& progress) const {
   const std::string fingerprint = machineFingerprint();
@@ -359,6 +351,14 @@ void World::requireSameBytes(const Progress& progress) const {
 const WorldFile& World::file() const { return state_->file; }
 const fs::path& World::folder() const { return state_->folder; }
 std::span<const Example> World::examples() const { return state_->examples; }
+
+Vec3d World::tileSize() const {
+  const Example& example = state_->examples.front();
+  const double side = state_->file.tile;
+  if (example.form() == Form::Heights) return Vec3d{side, side, 0} * example.heights().cellSize;
+  const Vec3d& cell = example.labels().cellSize;
+  return {side * cell.x, side * cell.y, state_->file.height * cell.z};
+}
 
 fs::path World::tilePath(const PlanePoint& tile, const std::string& ending) const {
   return state_->folder / "tiles" / "0" / std::to_string(tile.x) /

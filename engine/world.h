@@ -7,6 +7,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/progress.h"
 #include "engine/engine.h"
@@ -18,12 +20,14 @@
 namespace exemplar {
 
 /// What a new world is to be.
+inline constexpr int kMostTileSide = 4096;  ///< columns
 struct WorldRequest {
   Source example;
-  std::string engine;         ///< empty: the one that the example asks for
-  Settings settings;          ///< of reading the example, of the engine, and `seed`
-  int tile = 72;              ///< columns along each side of a tile, 8..1024
-  int window = 36;            ///< columns from one window to the next, 12..512
+  std::string engine;       ///< empty: the one that the example asks for
+  Settings settings;        ///< of reading the example, of the engine, and `seed`
+  std::optional<int> tile;  ///< columns along each side of a tile, 8..4096; 72, heights 256
+  /// Columns from one window to the next: 36, 12..512; of heights 384, 96..1024.
+  std::optional<int> window;
   std::optional<int> height;  ///< cells, 1..1024; the example's
 };
 
@@ -42,7 +46,8 @@ struct WorldCosts {
 ///     tiles/0/I/J.*   tiles that were made; each is whole, or not there
 ///     cache/          windows that were made, where that is asked for; may be deleted at any time
 ///
-/// Only labels (the engine model) have worlds.
+/// Labels (the engine model) and heights (terrain) have worlds. Tiles of heights share their outer
+/// rows with their neighbors: they have a point more along each side than `WorldFile::tile` says.
 class World {
  public:
   /// Makes a world in a folder, which is made, too; opens the one that is there where it is the
@@ -69,6 +74,8 @@ class World {
   /// The columns of some tiles with so many more around them.
   Result around(const PlaneBox& tiles, int columns, const Progress& progress = {}) const;
 
+  /// Of how many columns neighboring tiles both have a copy: 1 of heights, else 0.
+  int shared() const;
   /// A hash of a result's content.
   static std::uint64_t hashOf(const Result& result);
   /// Makes tile 0,0 and throws `InputError` where it is not the one that the world's maker got:
@@ -79,6 +86,9 @@ class World {
   const WorldFile& file() const;
   const std::filesystem::path& folder() const;
   std::span<const Example> examples() const;
+  /// Of a tile, world units: what one is to be moved by for each number along x and y; along z its
+  /// height, 0 of heights.
+  Vec3d tileSize() const;
   /// Where a tile's file with an ending (".glb") is.
   std::filesystem::path tilePath(const PlanePoint& tile, const std::string& ending) const;
 
@@ -95,8 +105,8 @@ struct World::Created {
   bool wasThere = false;
   WorldCosts costs;
   Warnings warnings;
-  double shareDifference = 0;  ///< of what it begins with (`labelWorldStart`)
-  double labelsShown = 0;      ///< the share of the example's labels in that
+  /// Lines about what it begins with: a label and a text.
+  std::vector<std::pair<std::string, std::string>> notes;
 };
 
 }  // namespace exemplar

@@ -76,7 +76,7 @@ WorldFile readWorldFile(const std::filesystem::path& world) {
     file.fingerprint = json.at("fingerprint");
     file.canary = hashFrom(json.at("canary").at("xxh3"));
     const auto within = [](int n, int least, int most) { return n >= least && n <= most; };
-    if (!within(file.tile, 8, 1024) || !within(file.window, 12, 512) ||
+    if (!within(file.tile, 8, 4096) || !within(file.window, 12, 1024) ||
         !within(file.height, 1, 32767))
       throw InputError("a size is out of range");
     if (std::filesystem::path(file.example).filename() != file.example || file.example.empty())

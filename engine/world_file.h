@@ -19,9 +19,9 @@ struct WorldFile {
 
   std::string engine;
   std::uint64_t seed = 0;
-  int tile = 72;                  ///< columns along each side of a tile, 8..1024
-  int window = 36;                ///< columns from window to window, 12..512
-  int height = 0;                 ///< cells
+  int tile = 72;                  ///< columns along each side of a tile, 8..4096
+  int window = 36;                ///< columns from window to window, 12..1024
+  int height = 0;                 ///< cells; 1 of heights
   Settings settings;              ///< of reading the example, and of the engine
   std::string example;            ///< its file, in the folder `example` of the world's
   std::uint64_t exampleHash = 0;  ///< of that file's bytes

@@ -4,33 +4,29 @@
 #include "engine/world_tiles.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 
 #include "core/cells.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/hash.h"
 #include "core/parallel.h"
-#include "engine/model_request.h"
+#include "engine/height_mesh.h"
 #include "engine/output.h"
 #include "engine/words.h"
+#include "maps/height_map_file.h"
+#include "mesh/given_normals.h"
 #include "mesh/mesh_file.h"
+#include "mesh/shading_normals.h"
 #include "reconstruct/adjacency.h"
 #include "voxelize/label_file.h"
-#include "voxelize/violations.h"
 
 namespace exemplar {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What tiles are written to: what a result of labels is, but for what shows one layer, or time.
-constexpr const char* kTileEndings = ".txt .vox .vdb .obj .ply .stl .off .glb .gltf";
 
 std::optional<std::int64_t> wholeNumber(const std::string& text) {
   std::int64_t n = 0;
@@ -39,98 +35,26 @@ std::optional<std::int64_t> wholeNumber(const std::string& text) {
   return n;
 }
 
-/// An edge on the plane between two tiles: its ends' coordinates along y (or x) and z, the lower
-/// end first, as floats, in which files hold them.
-using RimEdge = std::array<float, 4>;
-
-/// The edges of one triangle alone on a tile's four sides. One on an upright line where four tiles
-/// meet can go on in any of the three others, so these are kept apart.
-struct Rim {
-  std::array<std::vector<RimEdge>, 4> sides;    ///< low and high along x, then along y
-  std::array<std::vector<RimEdge>, 4> corners;  ///< low x low y, high x low y, low high, high high
-};
-
-Rim rimOf(const TriangleMesh& mesh, const Vec2f& low, const Vec2f& high) {
-  std::array<std::map<RimEdge, int>, 4> sides, corners;
-  const auto at = [](const Vec3d& p, int axis) { return static_cast<float>(p[axis]); };
-  for (const auto& triangle : mesh.triangles) {
-    for (int corner = 0; corner < 3; ++corner) {
-      const Vec3d& a = mesh.positions[triangle[corner]];
-      const Vec3d& b = mesh.positions[triangle[(corner + 1) % 3]];
-      std::array<int, 2> side{-1, -1};  // for each axis, 0 for the low one, 1 for the high one
-      for (int axis = 0; axis < 2; ++axis) {
-        if (at(a, axis) != at(b, axis)) continue;
-        const float lowest = axis == 0 ? low.x : low.y, highest = axis == 0 ? high.x : high.y;
-        if (at(a, axis) == lowest) side[axis] = 0;
-        if (at(a, axis) == highest) side[axis] = 1;
-      }
-      if (side[0] < 0 && side[1] < 0) continue;
-      const bool upright = side[0] >= 0 && side[1] >= 0;
-      const int axis = side[0] >= 0 ? 0 : 1;
-      std::array<float, 2> p{upright ? 0 : at(a, 1 - axis), at(a, 2)};
-      std::array<float, 2> q{upright ? 0 : at(b, 1 - axis), at(b, 2)};
-      if (q < p) std::swap(p, q);
-      auto& count = upright ? corners[side[0] + 2 * side[1]] : sides[2 * axis + side[axis]];
-      ++count[{p[0], p[1], q[0], q[1]}];
-    }
-  }
-  Rim rim;
-  for (std::size_t k = 0; k < 4; ++k) {
-    for (const auto& [edge, triangles] : sides[k])
-      if (triangles % 2 == 1) rim.sides[k].push_back(edge);
-    for (const auto& [edge, triangles] : corners[k])
-      if (triangles % 2 == 1) rim.corners[k].push_back(edge);
-  }
-  return rim;
-}
-
-/// How many edges are in one list alone; both ascending.
-std::int64_t unmatchedEdges(const std::vector<RimEdge>& a, const std::vector<RimEdge>& b) {
-  std::vector<RimEdge> alone;
-  std::ranges::set_symmetric_difference(a, b, std::back_inserter(alone));
-  return static_cast<std::int64_t>(alone.size());
-}
-
-/// Compares the rims of neighboring tiles: each edge is there in an even number of them.
-void matchRims(const std::map<PlanePoint, Rim>& rims, CheckedTiles& found) {
-  for (const auto& [tile, rim] : rims) {
-    for (int axis = 0; axis < 2; ++axis) {
-      PlanePoint next = tile;
-      ++next[axis];
-      const auto beside = rims.find(next);
-      if (beside == rims.end()) continue;
-      const auto& here = rim.sides[2 * axis + 1];
-      const auto& there = beside->second.sides[2 * axis];
-      found.rimEdges += static_cast<std::int64_t>(here.size() + there.size());
-      found.unmatched += unmatchedEdges(here, there);
-    }
-    // Where this tile and three others meet.
-    std::map<RimEdge, int> tiles;
-    int meeting = 0;
-    for (int corner = 0; corner < 4; ++corner) {
-      const auto around = rims.find({tile.x + 1 - corner % 2, tile.y + 1 - corner / 2});
-      if (around == rims.end()) continue;
-      ++meeting;
-      for (const RimEdge& edge : around->second.corners[static_cast<std::size_t>(corner)])
-        ++tiles[edge];
-    }
-    if (meeting < 4) continue;
-    for (const auto& [edge, count] : tiles) {
-      found.rimEdges += count;
-      found.unmatched += count % 2;
-    }
-  }
-}
-
 }  // namespace
+
+const char* tileEndings(const World& world) {
+  // What a result is written to, but for what shows one layer, or time.
+  return world.examples().front().form() == Form::Heights
+             ? ".tif .png .asc .r16 .raw .exr .pgm .obj .ply .stl .off .glb .gltf"
+             : ".txt .vox .vdb .obj .ply .stl .off .glb .gltf";
+}
+
+std::string usualFormat(const World& world) {
+  return world.examples().front().form() == Form::Heights ? "tif" : "glb";
+}
 
 std::vector<std::string> tileEndings(const World& world, const std::string& formats) {
   std::vector<std::string> endings;
-  for (std::string text : split(formats, ',')) {
+  for (std::string text : split(formats.empty() ? usualFormat(world) : formats, ',')) {
     if (text.empty()) continue;
     if (text.front() != '.') text.insert(text.begin(), '.');
-    if ((" " + std::string(kTileEndings) + " ").find(" " + text + " ") == std::string::npos)
-      throw InputError("`formats` " + text + ": tiles are written to " + kTileEndings);
+    if ((" " + std::string(tileEndings(world)) + " ").find(" " + text + " ") == std::string::npos)
+      throw InputError("`formats` " + text + ": tiles are written to " + tileEndings(world));
     if (isMeshFile("tile" + text) &&
         std::holds_alternative<LabeledField>(world.examples().front().content))
       throw InputError("`formats` " + text +
@@ -144,34 +68,99 @@ std::vector<std::string> tileEndings(const World& world, const std::string& form
   return endings;
 }
 
-TriangleMesh tileMesh(const World& world, const PlanePoint& tile, const Progress& progress) {
-  const Example& example = world.examples().front();
-  const auto* pieces = std::get_if<ModelPieces>(&example.content);
-  const PlaneBox one{tile, {tile.x + 1, tile.y + 1}};
-  if (!pieces) return realizeLabels(world.tile(tile, progress).labels(), example, progress);
+namespace {
+
+/// A tile of pieces. Cells around it are seen, so that its edges are divided as its neighbors' are.
+TriangleMesh meshOfPieces(const World& world, const PlaneBox& one, const ModelPieces& pieces,
+                          const Progress& progress) {
   const Result around = world.around(one, 1, progress.part(0, 0.5));
   const LabelGrid& grid = around.labels();
   std::vector<std::uint32_t> cellOf;
-  TriangleMesh mesh = assemblePieces(grid, *pieces, &cellOf, progress.part(0.5, 1));
+  TriangleMesh mesh = assemblePieces(grid, pieces, &cellOf, progress.part(0.5, 1));
   const CellBox inside{{1, 1, 0}, grid.size() - Vec3i{1, 1, 0}};
   std::vector<std::uint8_t> keep;
   for (const std::uint32_t cell : cellOf) keep.push_back(inside.contains(grid.cells.ijk(cell)));
   keepTriangles(mesh, keep);
+  return mesh;
+}
+
+/// A tile of heights, and the normals of its vertices: those of its border are its neighbors', too,
+/// for the points beyond are seen.
+TriangleMesh meshOfHeightTile(const World& world, const PlaneBox& one, std::vector<Vec3f>& normals,
+                              const Progress& progress) {
+  const Result around = world.around(one, 1, progress.part(0, 0.5));
+  const HeightMap& map = around.heights();
+  TriangleMesh all = meshOfHeights(map, progress.part(0.5, 0.7));
+  const ShadingNormals shading = shadingNormals(all, MeshNormals::Smooth, progress.part(0.7, 1));
+  std::vector<std::uint32_t> normalOf(all.positions.size());
+  for (std::size_t t = 0; t < all.triangles.size(); ++t)
+    for (int c = 0; c < 3; ++c) normalOf[all.triangles[t][c]] = shading.corners[t][c];
+  // Without the points around it, which has all rows and columns of its own.
+  const auto width = static_cast<std::uint32_t>(map.width());
+  const auto side = width - 2;
+  const auto inside = [&](std::uint32_t v) {
+    const std::uint32_t x = v % width, y = v / width;
+    return x > 0 && y > 0 && x <= side && y <= side;
+  };
+  TriangleMesh mesh;
+  for (std::uint32_t v = 0; v < all.positions.size(); ++v) {
+    if (!inside(v)) continue;
+    const std::uint32_t x = v % width - 1, y = v / width - 1;
+    mesh.positions.push_back({x * map.cellSize, (side - 1 - y) * map.cellSize, all.positions[v].z});
+    normals.push_back(shading.normals[normalOf[v]]);
+  }
+  for (const auto& triangle : all.triangles) {
+    if (!std::ranges::all_of(triangle, inside)) continue;
+    auto& made = mesh.triangles.emplace_back();
+    for (int c = 0; c < 3; ++c)
+      made[c] = (triangle[c] / width - 1) * side + triangle[c] % width - 1;
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh tileMesh(const World& world, const PlanePoint& tile, std::vector<Vec3f>* normals,
+                      const Progress& progress) {
+  const Example& example = world.examples().front();
+  const PlaneBox one{tile, {tile.x + 1, tile.y + 1}};
+  TriangleMesh mesh;
+  if (example.form() == Form::Heights) {
+    std::vector<Vec3f> own;
+    mesh = meshOfHeightTile(world, one, own, progress);
+    if (normals) *normals = std::move(own);
+  } else if (const auto* pieces = std::get_if<ModelPieces>(&example.content)) {
+    mesh = meshOfPieces(world, one, *pieces, progress);
+  } else {
+    return realizeLabels(world.tile(tile, progress).labels(), example, progress);
+  }
   mesh.name = "tile " + tileText(tile);
   return mesh;
 }
 
-void writeTile(const World& world, const PlanePoint& tile, const Result& result,
-               const fs::path& path, const Progress& progress) {
+Warnings writeTile(const World& world, const PlanePoint& tile, const Result& result,
+                   const fs::path& path, const Progress& progress) {
+  Warnings warnings;
   if (isMeshFile(path)) {
-    MeshFileOptions options = world.examples().front().reading.mesh;
-    writeMesh(path, tileMesh(world, tile, progress), options);
-    return;
+    const MeshFileOptions& options = world.examples().front().reading.mesh;
+    std::vector<Vec3f> normals;
+    const TriangleMesh mesh = tileMesh(world, tile, &normals, progress);
+    const std::string ending = lowerExtension(path);
+    if (!normals.empty() && (ending == ".glb" || ending == ".gltf")) {
+      writeMeshWithNormals(path, mesh, normals, options);
+    } else {
+      writeMesh(path, mesh, options);
+    }
+  } else if (result.form() == Form::Heights) {
+    writeHeightMap(path, result.heights(), {.warnings = &warnings}, progress);
+  } else {
+    LabelGrid grid = result.labels();
+    for (int axis = 0; axis < 2; ++axis)
+      grid.origin[axis] +=
+          static_cast<double>(tile[axis] * world.file().tile) * grid.cellSize[axis];
+    writeLabels(path, grid, world.examples().front(), {}, progress);
   }
-  LabelGrid grid = result.labels();
-  for (int axis = 0; axis < 2; ++axis)
-    grid.origin[axis] += static_cast<double>(tile[axis] * world.file().tile) * grid.cellSize[axis];
-  writeLabels(path, grid, world.examples().front(), {}, progress);
+  return warnings;
 }
 
 MadeTiles makeTiles(const World& world, const PlaneBox& tiles, const MakeOptions& options,
@@ -208,17 +197,21 @@ MadeTiles makeTiles(const World& world, const PlaneBox& tiles, const MakeOptions
       for (std::size_t n = begin; n < end; ++n) {
         const PlanePoint& tile = work[n].first;
         std::string why;
+        Warnings warnings;
         try {
           const Result result = whole ? world.tileOf(*whole, job, tile) : world.tile(tile, hearing);
           for (const fs::path& path : work[n].second) {
             std::error_code error;
             fs::create_directories(path.parent_path(), error);
-            writeTile(world, tile, result, path, hearing);
+            const Warnings said = writeTile(world, tile, result, path, hearing);
+            warnings.insert(warnings.end(), said.begin(), said.end());
           }
         } catch (const InputError& e) {
           why = e.what();
         }
         const std::lock_guard lock(mutex);
+        // One for all tiles says it: of the first that was made.
+        if (state.warnings.empty()) state.warnings = warnings;
         if (why.empty()) {
           ++state.made;
         } else {
@@ -232,61 +225,6 @@ MadeTiles makeTiles(const World& world, const PlaneBox& tiles, const MakeOptions
   }
   std::sort(state.failed.begin(), state.failed.end());
   return state;
-}
-
-CheckedTiles checkTiles(const World& world, const PlaneBox& tiles, const CheckOptions& options,
-                        const Progress& progress) {
-  CheckedTiles found;
-  const std::vector<LabelGrid> examples = modelGrids(world.examples());
-  const bool pairs = !std::holds_alternative<LabeledField>(world.examples().front().content);
-  ModelSettings settings;
-  modelSettings().apply(world.file().settings, settings);
-  ViolationOptions rules;
-  rules.adjacency = adjacencyOptions(settings);
-  std::map<PlanePoint, Rim> rims;
-  std::string hashes;
-  const std::vector<PlanePoint> all = tilesOf(tiles);
-  const double side = world.file().tile;
-  for (const PlanePoint& tile : all) {
-    progress.report("checking tiles",
-                    static_cast<double>(found.tiles) / static_cast<double>(all.size()));
-    ++found.tiles;
-    const PlaneBox one{tile, {tile.x + 1, tile.y + 1}};
-    const Result result = world.tile(tile);
-    hashes += hashText(World::hashOf(result));
-    if (pairs) {
-      // With the column around: pairs across the border are counted from both sides.
-      const AdjacencyViolations here =
-          findViolations({&world.around(one, 1).labels(), 1}, examples, rules);
-      found.pairs += here.pairs;
-      found.violations += here.count;
-    }
-    for (const std::string& ending : split(kTileEndings, ' ')) {
-      const fs::path path = world.tilePath(tile, ending);
-      std::error_code error;
-      if (!fs::exists(path, error)) continue;
-      ++found.files;
-      const std::uint64_t draw = contentHash(tileText(tile) + ending) % 10'000;
-      if (static_cast<double>(draw) < 100 * options.remake) {
-        ++found.remade;
-        const fs::path again = fs::path(path).replace_filename(
-            "." + path.stem().string() + "_again" + path.extension().string());
-        writeTile(world, tile, result, again);
-        if (readFile(again) != readFile(path)) found.different.push_back(path.string());
-        fs::remove(again, error);
-      }
-      if (ending != ".glb") continue;
-      const TriangleMesh mesh = readMesh(path);
-      const LabelGrid& grid = result.labels();
-      const Vec3d high = grid.origin + side * grid.cellSize;
-      rims[tile] =
-          rimOf(mesh, {static_cast<float>(grid.origin.x), static_cast<float>(grid.origin.y)},
-                {static_cast<float>(high.x), static_cast<float>(high.y)});
-    }
-  }
-  matchRims(rims, found);
-  found.hash = contentHash(hashes);
-  return found;
 }
 
 std::vector<ListedTile> listTiles(const World& world) {

@@ -14,17 +14,24 @@
 /// Tiles of a world as files: made, checked, listed.
 namespace exemplar {
 
-/// The endings of formats ("glb", or ".glb,txt"), each with its dot. Throws `InputError` for those
-/// that tiles of this world cannot be written to.
+/// What tiles of a world can be written to: ".txt .vox ...".
+const char* tileEndings(const World& world);
+/// What its tiles are written to where nothing is said: "glb" of labels, "tif" of heights.
+std::string usualFormat(const World& world);
+/// The endings of formats ("glb", or ".glb,txt"; empty: `usualFormat`), each with its dot. Throws
+/// `InputError` for those that tiles of this world cannot be written to.
 std::vector<std::string> tileEndings(const World& world, const std::string& formats);
 
-/// A tile as triangles, from its own corner, where the world's example is made of pieces: cells
-/// around it are seen, so that its edges are divided as its neighbors' are, and meet them.
-TriangleMesh tileMesh(const World& world, const PlanePoint& tile, const Progress& progress = {});
-/// Writes a tile, whole or not at all; grids of labels lie where the tile lies in the world, meshes
-/// from the tile's corner.
-void writeTile(const World& world, const PlanePoint& tile, const Result& result,
-               const std::filesystem::path& path, const Progress& progress = {});
+/// A tile as triangles, from its own corner. What lies around it is seen: tiles of pieces are
+/// divided along their edges as their neighbors are, and meet them; tiles of heights have their
+/// neighbors' points along their border and, where `normals` is given, the same normals there.
+TriangleMesh tileMesh(const World& world, const PlanePoint& tile,
+                      std::vector<Vec3f>* normals = nullptr, const Progress& progress = {});
+/// Writes a tile, whole or not at all; grids of labels and maps of heights lie where the tile lies
+/// in the world, meshes from the tile's corner. Heights as integers have one scale in all tiles.
+/// Returns what the format cannot say.
+Warnings writeTile(const World& world, const PlanePoint& tile, const Result& result,
+                   const std::filesystem::path& path, const Progress& progress = {});
 
 struct MakeOptions {
   std::vector<std::string> endings;  ///< as `tileEndings` gives them
@@ -34,6 +41,7 @@ struct MakeOptions {
 struct MadeTiles {
   std::int64_t all = 0, there = 0, made = 0;               ///< of them there before; made now
   std::vector<std::pair<PlanePoint, std::string>> failed;  ///< and why
+  Warnings warnings;                                       ///< of the first tile
 };
 /// Makes those tiles of a region whose files are not all there; a file that is there is whole. Runs
 /// of several processes at once on one folder, or after one that was killed, lose nothing and harm
@@ -49,7 +57,9 @@ struct CheckOptions {
 /// What is wrong with a region.
 struct CheckedTiles {
   std::int64_t tiles = 0;
-  std::int64_t pairs = 0, violations = 0;    ///< of neighbors, also across tiles
+  /// Of neighboring labels, also across tiles, and those that the example does not show; of points
+  /// that two tiles of heights share, and those that are not at one height.
+  std::int64_t pairs = 0, violations = 0;
   std::int64_t files = 0;                    ///< that are there
   std::int64_t remade = 0;                   ///< of these, made again
   std::vector<std::string> different;        ///< of these, not the same bytes
@@ -57,8 +67,9 @@ struct CheckedTiles {
   std::uint64_t hash = 0;                    ///< of all tiles' contents
   bool sound() const { return violations == 0 && different.empty() && unmatched == 0; }
 };
-/// Checks a region: every pair of neighbors, the bytes of files that are there (some of them, the
-/// same at each call), and that edges of meshes on the plane between two tiles are both tiles'.
+/// Checks a region: every pair of neighbors, or shared point, the bytes of files that are there
+/// (some of them, the same at each call), and that edges of meshes on the plane between two tiles
+/// are both tiles'.
 CheckedTiles checkTiles(const World& world, const PlaneBox& tiles, const CheckOptions& options = {},
                         const Progress& progress = {});
 

@@ -44,11 +44,12 @@ class GlbWriter {
  public:
   /// Materials and textures are those of `mesh`, and so are the triangles where there are no parts.
   GlbWriter(const TriangleMesh& mesh, bool yUp, MeshNormals normals, bool plain,
-            const Progress& progress)
+            const Progress& progress, std::span<const Vec3f> given = {})
       : mesh_(mesh),
         part_(&mesh),
         yUp_(yUp),
         normals_(normals),
+        given_(given),
         plain_(plain),
         progress_(progress),
         materials_(mesh, [this](const std::string& bytes) { return addPicture(bytes); }) {
@@ -298,7 +299,9 @@ class GlbWriter {
   /// A mesh of the file: one primitive for each material, all with the same vertices.
   Json addPrimitives() {
     const Progress computing = part_ == &mesh_ ? progress_.part(0, 0.4) : Progress{};
-    const ShadingNormals normals = shadingNormals(*part_, normals_, computing);
+    const ShadingNormals normals =
+        given_.empty() ? shadingNormals(*part_, normals_, computing)
+                       : ShadingNormals{{given_.begin(), given_.end()}, part_->triangles};
     const CornerTangents tangents = tangentsOf(normals);
     const SplitVertices vertices =
         splitVertices(*part_, normals, tangents, {.sources = true}, progress_);
@@ -412,7 +415,8 @@ class GlbWriter {
   Vec3d offset_{};            // world space: what is taken off positions and given to nodes
   bool yUp_;
   MeshNormals normals_;
-  bool plain_;  // JSON alone rather than a binary container
+  std::span<const Vec3f> given_;  // of the vertices; may be empty
+  bool plain_;                    // JSON alone rather than a binary container
   Progress progress_;
   std::size_t meshes_ = 0;  // meshes of the file so far
   Json json_;
@@ -426,13 +430,13 @@ class GlbWriter {
 }  // namespace
 
 std::string formatGlb(const TriangleMesh& mesh, bool yUp, MeshNormals normals,
-                      const Progress& progress) {
-  return GlbWriter(mesh, yUp, normals, false, progress).write();
+                      const Progress& progress, std::span<const Vec3f> given) {
+  return GlbWriter(mesh, yUp, normals, false, progress, given).write();
 }
 
 std::string formatGltf(const TriangleMesh& mesh, bool yUp, MeshNormals normals,
-                       const Progress& progress) {
-  return GlbWriter(mesh, yUp, normals, true, progress).write();
+                       const Progress& progress, std::span<const Vec3f> given) {
+  return GlbWriter(mesh, yUp, normals, true, progress, given).write();
 }
 
 std::string formatGlb(const TriangleMesh& mesh, const MeshInstances& instances, bool yUp,

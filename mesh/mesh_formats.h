@@ -69,11 +69,13 @@ std::string formatPly(const TriangleMesh& mesh, bool yUp, MeshNormals normals = 
 std::string formatStl(const TriangleMesh& mesh, bool yUp, const Progress& progress = {});
 std::string formatOff(const TriangleMesh& mesh, bool yUp, const Progress& progress = {},
                       FaceNumbers faces = {});
+/// `given` (n or 0) are vertices' normals, in place of those of `normals`.
 std::string formatGlb(const TriangleMesh& mesh, bool yUp, MeshNormals normals = MeshNormals::Crease,
-                      const Progress& progress = {});
+                      const Progress& progress = {}, std::span<const Vec3f> given = {});
 /// A plain `.gltf`, its buffer embedded.
 std::string formatGltf(const TriangleMesh& mesh, bool yUp,
-                       MeshNormals normals = MeshNormals::Crease, const Progress& progress = {});
+                       MeshNormals normals = MeshNormals::Crease, const Progress& progress = {},
+                       std::span<const Vec3f> given = {});
 
 /// Parts of a mesh, each placed any number of times.
 struct MeshInstances {

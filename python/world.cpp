@@ -26,8 +26,9 @@ std::shared_ptr<Made> madeOf(const World& world, Result result) {
 }
 
 py::tuple create(const std::filesystem::path& folder, const py::object& example,
-                 const std::string& engine, const Given& settings, int tile, int window,
-                 const std::optional<int>& height, const py::object& progress, int threads) {
+                 const std::string& engine, const Given& settings, const std::optional<int>& tile,
+                 const std::optional<int>& window, const std::optional<int>& height,
+                 const py::object& progress, int threads) {
   WorldRequest request{sourceOf(example),
                        engine == "auto" ? "" : engine,
                        settingsOf(settings),

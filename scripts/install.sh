@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build ccache
   libtbb-dev libopenvdb-dev libboost-iostreams-dev libembree-dev libopenmesh-dev libhwy-dev libmeshoptimizer-dev libtinygltf-dev libeigen3-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev
-  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libcadical-dev libxxhash-dev
+  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libcadical-dev libxxhash-dev libcpp-httplib-dev pkg-config
   libgtest-dev libgmock-dev libbenchmark-dev libfftw3-dev zlib1g-dev
   "$@"
 )

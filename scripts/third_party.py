@@ -30,6 +30,7 @@ DECLARED = {
     "libblosc": "BSD-3-Clause", "liblz4": "BSD-2-Clause", "libzstd": "BSD-3-Clause",
     "libsnappy": "BSD-3-Clause", "liblzma5": "0BSD", "libdeflate": "MIT", "libjbig": "GPL-2.0-or-later",
     "liblerc": "Apache-2.0", "libwebp": "BSD-3-Clause", "three": "MIT",
+    "libcpp-httplib": "MIT", "libssl": "Apache-2.0", "libbrotli": "MIT",
 }
 
 # Compiled in: static libraries and headers. three.js, in the report's page, comes from npm.

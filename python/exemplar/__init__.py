@@ -277,7 +277,7 @@ def transfer(mesh, result, *, textures="auto", blend=1.5, source=False):
 
 
 class World:
-    """An example of labels or of pieces without end: any tile alone, in any order, on any machine,
+    """An example of labels, pieces or heights without end: any tile alone, in any order, on any machine,
     always the same bytes, and fitting its neighbors (docs/worlds.md).
 
         world = exemplar.World.create("land", "castle", seed=7)
@@ -289,11 +289,12 @@ class World:
         self._core, self._warnings = _core._open_world(folder, cached), []
 
     @classmethod
-    def create(cls, folder, example, *, engine="auto", tile=72, window=36, height=None,
+    def create(cls, folder, example, *, engine="auto", tile=None, window=None, height=None,
                progress=None, threads=0, **settings):
         """Makes a world in a folder, or opens the same one where it is there. tile: columns along
-        a tile's sides, 8 to 1024. window: columns from one window to the next, 12 to 512. height:
-        cells; the example's. Settings are those of reading, of the engine, and `seed`."""
+        a tile's sides, 8 to 4096 (72; of heights 256). window: columns from one window to the
+        next (36; of heights 384). height: cells; the example's. Settings are those of reading, of
+        the engine, and `seed`."""
         name = "model" if engine == "auto" else engine
         core, outcome, why, warnings = _core._create_world(
             folder, _memory(example), engine, _given(settings, _repeating(name)), tile, window,

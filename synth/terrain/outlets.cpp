@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@ constexpr std::array<Pixel, 8> kSteps{
 constexpr std::uint8_t kOutlet = 8, kUnseen = 9;
 /// Cuts that are less deep than this, of what banks rise in a step, have none.
 constexpr float kShallow = 0.25f;
+/// How much deeper, of the relief, land is cut rather than what is held passed over.
+constexpr std::array<float, 6> kDeepCuts{0.03f, 0.06f, 0.12f, 0.25f, 0.5f, 1.0f};
 
 /// Samples in the order of their heights, first come first served among about equal ones: a queue
 /// of 2^18 buckets, in constant time.
@@ -71,6 +74,33 @@ class HeightQueue {
   std::uint64_t coarse_ = 0;
 };
 
+/// The same, exactly in the order of heights: in logarithmic time.
+class ExactQueue {
+ public:
+  void push(std::uint32_t sample, float height) {
+    samples_.push_back({height, count_++, sample});
+    std::ranges::push_heap(samples_, after);
+  }
+  bool empty() const { return samples_.empty(); }
+  std::uint32_t pop() {
+    std::ranges::pop_heap(samples_, after);
+    const std::uint32_t sample = samples_.back().sample;
+    samples_.pop_back();
+    return sample;
+  }
+
+ private:
+  struct Queued {
+    float height;
+    std::uint32_t number, sample;
+  };
+  static bool after(const Queued& a, const Queued& b) {
+    return a.height != b.height ? a.height > b.height : a.number > b.number;
+  }
+  std::vector<Queued> samples_;
+  std::uint32_t count_ = 0;
+};
+
 class Outlets {
  public:
   Outlets(Grid<float>& heights, const Grid<std::uint8_t>& held, const OutletOptions& options,
@@ -87,6 +117,7 @@ class Outlets {
     OutletsCut made;
     if (!(most_ > least_)) return made;
     if (!options_.kept.empty()) keepHollows();
+    if (!options_.outlets.empty()) liftToOutlets();
     fill(made);
     cut(made);
     return made;
@@ -113,6 +144,7 @@ class Outlets {
 
   bool isOutlet(std::uint32_t sample) const {
     if (bodyOf(sample) == kSeaBody) return true;
+    if (!options_.outlets.empty()) return options_.outlets[sample] != 0;
     for (int d = 0; d < 8; ++d) {
       std::uint32_t n;
       if (!neighbor(sample, d, n) || std::isnan(heights_[n])) return true;
@@ -124,8 +156,17 @@ class Outlets {
   /// it is queued.
   template <class Enter, class Leave>
   void flood(const Enter& enter, const Leave& leave) {
+    if (options_.outlets.empty()) {
+      floodBy(HeightQueue(heights_.count(), least_, most_), enter, leave);
+    } else {
+      // Ways out are few and may fall by next to nothing.
+      floodBy(ExactQueue(), enter, leave);
+    }
+  }
+
+  template <class Queue, class Enter, class Leave>
+  void floodBy(Queue queue, const Enter& enter, const Leave& leave) {
     const std::size_t count = heights_.count();
-    HeightQueue queue(count, least_, most_);
     toward_.assign(count, kUnseen);
     bool any = false;
     for (std::uint32_t s = 0; s < count; ++s) {
@@ -164,12 +205,8 @@ class Outlets {
   bool isHeld(std::size_t s) const { return (!held_.empty() && held_[s]) || bodyOf(s) != 0; }
   bool isKept(std::size_t s) const { return !kept_.empty() && kept_[s]; }
 
-  /// Finds the hollows that stay.
-  void keepHollows() {
-    std::vector<float> level(heights_.values().begin(), heights_.values().end());
-    flood([&](std::uint32_t n,
-              std::uint32_t from) { return level[n] = std::max(level[n], level[from]); },
-          [](std::uint32_t) {});
+  /// Connected samples that lie below these levels.
+  std::vector<std::vector<std::uint32_t>> hollowsBelow(const std::vector<float>& level) const {
     std::vector<std::vector<std::uint32_t>> hollows;
     std::vector<std::uint8_t> seen(level.size());
     for (std::uint32_t s = 0; s < level.size(); ++s) {
@@ -186,6 +223,16 @@ class Outlets {
       }
       hollows.push_back(std::move(hollow));
     }
+    return hollows;
+  }
+
+  /// Finds the hollows that stay.
+  void keepHollows() {
+    std::vector<float> level(heights_.values().begin(), heights_.values().end());
+    flood([&](std::uint32_t n,
+              std::uint32_t from) { return level[n] = std::max(level[n], level[from]); },
+          [](std::uint32_t) {});
+    std::vector<std::vector<std::uint32_t>> hollows = hollowsBelow(level);
     // From the largest size down; those of one size in an order without direction.
     const auto sizeOf = [](const auto& hollow) {
       return static_cast<std::size_t>(std::bit_width(hollow.size())) - 1;
@@ -225,10 +272,19 @@ class Outlets {
         },
         [](std::uint32_t) {});
     std::size_t flooded = 0;
+    // Where some of a hollow is held, the rest would rise beside it: it is only cut.
+    std::vector<std::uint8_t> cutOnly;
+    if (!options_.outlets.empty()) {
+      cutOnly.resize(level.size());
+      for (const std::vector<std::uint32_t>& hollow : hollowsBelow(level)) {
+        if (std::ranges::none_of(hollow, [&](std::uint32_t s) { return isHeld(s); })) continue;
+        for (const std::uint32_t s : hollow) cutOnly[s] = 1;
+      }
+    }
     for (std::size_t s = 0; s < level.size(); ++s) {
       if (!(level[s] > heights_[s])) continue;
       ++flooded;
-      if (isHeld(s) || isKept(s)) continue;
+      if (isHeld(s) || isKept(s) || (!cutOnly.empty() && cutOnly[s])) continue;
       heights_[s] += static_cast<float>(options_.fill) * (level[s] - heights_[s]);
       if (!kept_.empty()) heights_[s] = std::max(heights_[s], std::min(standing_[s], level[s]));
     }
@@ -251,11 +307,49 @@ class Outlets {
   /// A step that heights of this size can take.
   float leastStep() const { return std::max((most_ - least_) * 1e-6f, std::abs(most_) * 2.4e-7f); }
 
+  /// Lifts what lies below every way out: what is held cannot be cut.
+  void liftToOutlets() {
+    const float step = leastStep();
+    std::vector<float> lowest(heights_.values().begin(), heights_.values().end());
+    flood(
+        [&](std::uint32_t n, std::uint32_t from) {
+          return lowest[n] = isHeld(n) ? std::max(heights_[n], lowest[from]) : lowest[from] + step;
+        },
+        [](std::uint32_t) {});
+    for (std::size_t s = 0; s < lowest.size(); ++s)
+      if (!isHeld(s) && !isKept(s)) heights_[s] = std::max(heights_[s], lowest[s]);
+  }
+
   /// Cuts a way from every pit, by own heights: a hollow's pit is reached first over its lowest
   /// saddle, and the way back is the way that the water takes. Returns what was lowered.
   std::vector<std::uint32_t> carve(OutletsCut& made) {
-    const float step = std::max(static_cast<float>(options_.fall), leastStep());
     std::vector<std::uint32_t> changed;
+    made.left =
+        carveAlong([&](std::uint32_t n, std::uint32_t) { return heights_[n]; }, changed, made);
+    if (options_.outlets.empty()) return changed;
+    // The lowest way leads over what is held: others, through land that may be cut, the shallow
+    // cuts first.
+    for (float deep : kDeepCuts) {
+      if (made.left == 0) break;
+      deep *= most_ - least_;
+      std::vector<float> highest(heights_.count(), least_ - deep);
+      made.left = carveAlong(
+          [&](std::uint32_t n, std::uint32_t from) {
+            const float free = options_.hold.empty() ? !isHeld(n) : 1 - options_.hold[n];
+            const float own = heights_[n] - free * deep;
+            return highest[n] = std::max(highest[from], own);
+          },
+          changed, made);
+    }
+    return changed;
+  }
+
+  /// The same along the ways on which a flood whose samples `enter` by such heights returns.
+  /// Returns from how many pits the way was blocked by what is held.
+  template <class Enter>
+  std::int64_t carveAlong(const Enter& enter, std::vector<std::uint32_t>& changed,
+                          OutletsCut& made) {
+    std::int64_t blocked = 0;
     std::vector<std::uint8_t> drained(water_ ? water_->count : 0);
     const auto wantsOutlet = [&](std::uint32_t s) {
       if (toward_[s] == kOutlet || isKept(s)) return false;
@@ -263,22 +357,41 @@ class Outlets {
       // A lake's first sample is reached over its lowest saddle.
       return body != 0 ? !std::exchange(drained[body], 1) : isPit(s);
     };
-    flood([&](std::uint32_t n, std::uint32_t) { return heights_[n]; },
-          [&](std::uint32_t s) {
-            if (!wantsOutlet(s)) return;
-            float target = heights_[s];
-            bool any = false;
-            for (std::uint32_t at = s; toward_[at] != kOutlet;) {
-              neighbor(at, toward_[at], at);
-              target -= step;
-              if (heights_[at] <= target || isHeld(at)) break;
-              heights_[at] = target;
-              changed.push_back(at);
-              any = true;
-            }
-            made.outlets += any;
-          });
-    return changed;
+    flood(enter, [&](std::uint32_t s) {
+      if (!wantsOutlet(s)) return;
+      const std::optional<float> step = stepFrom(s);
+      blocked += !step;
+      float target = heights_[s];
+      bool any = false;
+      for (std::uint32_t at = s; toward_[at] != kOutlet;) {
+        neighbor(at, toward_[at], at);
+        target -= step.value_or(leastStep());
+        if (heights_[at] <= target || isHeld(at)) break;
+        heights_[at] = target;
+        changed.push_back(at);
+        any = true;
+      }
+      made.outlets += any;
+    });
+    return blocked;
+  }
+
+  /// By how much the bed of a cut falls in each step: less where what is held on its way is not low
+  /// enough; nothing where that is higher.
+  std::optional<float> stepFrom(std::uint32_t s) const {
+    float step = std::max(static_cast<float>(options_.fall), leastStep());
+    if (options_.outlets.empty()) return step;
+    int steps = 0;
+    for (std::uint32_t at = s; toward_[at] != kOutlet;) {
+      neighbor(at, toward_[at], at);
+      ++steps;
+      if (heights_[at] <= heights_[s] - static_cast<float>(steps) * step) break;
+      if (!isHeld(at)) continue;
+      if (heights_[at] > heights_[s]) return std::nullopt;
+      step = std::min(step, (heights_[s] - heights_[at]) / static_cast<float>(steps));
+      break;
+    }
+    return step;
   }
 
   bool isPit(std::uint32_t s) const {

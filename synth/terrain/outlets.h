@@ -27,6 +27,11 @@ struct OutletOptions {
   /// Hollows that may stay: as shares of the samples, by size, as `Hollows::bySize` has them; what
   /// one size does not need is left to smaller ones. Where they are no more in all, all stay.
   std::span<const double> kept;
+  /// Where water leaves, 1; empty: at the map's border.
+  Grid<std::uint8_t> outlets;
+  /// With these: how firmly samples are held, 0 to 1, so that cuts keep away from what is; may be
+  /// empty.
+  Grid<float> hold;
   bool wrapsX = false, wrapsY = false;
 };
 
@@ -36,6 +41,7 @@ struct OutletsCut {
   std::int64_t outlets = 0;  ///< how many were cut
   double mean = 0;           ///< what was taken away, a sample
   double deepest = 0;        ///< the deepest cut
+  std::int64_t left = 0;     ///< with `outlets`, pits behind what is held
 };
 
 /// Gives every hollow an outlet: water runs from every sample down to the map's border, or, on a

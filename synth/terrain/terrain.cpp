@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "maps/drainage.h"
+#include "maps/height_map.h"
 #include "synth/terrain/bent_heights.h"
 #include "synth/terrain/gradient_direction.h"
 #include "synth/terrain/gradient_domain.h"
@@ -24,12 +24,11 @@
 #include "synth/terrain/height_pyramid.h"
 #include "synth/terrain/outlets.h"
 #include "synth/terrain/standing_water.h"
+#include "synth/terrain/terrain_sources.h"
 
 namespace exemplar {
 namespace {
 
-/// Least side of the examples on the coarsest resolution: room for different patches.
-constexpr int kCoarsestSide = 14;
 /// Rounds there, where the layout is found.
 constexpr int kCoarsestRounds = 8;
 /// What the height at which a patch lies counts, where the layout is found and after.
@@ -40,37 +39,15 @@ constexpr double kMostComparisons = 2.5e6;
 constexpr double kStepReach = 16;
 /// By how much detail is strengthened at most.
 constexpr double kMostStrength = 1.5;
+/// Where outlets are given, the coarse resolutions down to this one are made up to so many times,
+/// until what is cut there is, on average, no more than this share of the examples' relief.
+constexpr int kLayoutLevel = 2, kLayouts = 4;
+constexpr double kShallowCuts = 0.0006;
 /// How far hollows are filled before an outlet is cut: little while finer resolutions still give
 /// the cut its valley, by half at the end.
 constexpr double kFillBefore = 0.2, kFillAtLast = 0.5;
-/// From which share of the samples in hollows on they are the land's own.
-constexpr double kNaturalHollows = 0.02;
-/// How many more of them a result may have: to fill or cut what is land changes its slopes.
-constexpr double kMoreHollows = 1.5;
 /// The least lakes of a result, samples.
 constexpr std::size_t kLeastLake = 24;
-/// How much beds of cuts fall beside the larger streams of the example.
-constexpr double kFallShare = 0.5;
-
-/// How far the larger streams of the examples fall, height per sample.
-double streamFall(std::span<const Grid<float>> examples, const Progress& progress) {
-  double fall = 0, length = 0;
-  for (const Grid<float>& heights : examples) {
-    const Drainage drainage = drain(heights, progress);
-    const Grid<std::uint32_t> accumulation = flowAccumulation(drainage);
-    const auto least = std::max<std::size_t>(8, heights.count() / 200);
-    for (const std::uint32_t cell : drainage.order) {
-      const std::uint8_t direction = drainage.directions[cell];
-      if (accumulation[cell] < least || direction >= kLeavesMap) continue;
-      const Pixel step = kNeighbors[direction];
-      const auto down = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + step.x +
-                                                 std::ptrdiff_t{step.y} * heights.width());
-      fall += drainage.levels[cell] - drainage.levels[down];
-      length += step.x != 0 && step.y != 0 ? 1.41421356 : 1;
-    }
-  }
-  return length > 0 ? fall / length : 0;
-}
 
 template <class Body>
 void forRows(int height, const Body& body) {
@@ -82,46 +59,24 @@ void forRows(int height, const Body& body) {
 /// What is known of the result on a resolution.
 struct LevelControl {
   Grid<float> guide, given, hold;
-  Grid<std::uint8_t> held;  ///< 1 where nothing changes
+  Grid<std::uint8_t> held;     ///< 1 where nothing changes
+  Grid<std::uint8_t> outlets;  ///< 1 where water leaves; empty: at the border
 };
 
 class Synthesis {
  public:
-  Synthesis(std::span<const Grid<float>> examples, const TerrainSynthesisOptions& options,
-            const Progress& progress)
-      : options_(options), examples_(examples.size()), levels_(levelsOf(examples, options)) {
-    turns_ = options.turns.empty() ? turnsOf(examples) : options.turns;
-    pyramid_ = heightPyramid(examples, levels_);
-    const auto hasPlaces = [](const HeightSource& source) { return source.places > 0; };
-    while (levels_ > 0 && !std::ranges::all_of(pyramid_.back().sources, hasPlaces)) {
-      pyramid_.pop_back();
-      --levels_;
-    }
-    if (levels_ == 0) {
-      throw InputError("no " + std::to_string(kHeightPatch) + " x " + std::to_string(kHeightPatch) +
-                       " samples of a height map are without holes; fill them first");
-    }
-    if (!options.keepsHollows) {
-      // In a larger result streams are longer, and the relief is the same.
-      double larger = 1;
-      for (const Grid<float>& example : examples) {
-        larger = std::max(larger, std::sqrt(static_cast<double>(options.width) * options.height /
-                                            static_cast<double>(example.count())));
-      }
-      fall_ = kFallShare * streamFall(examples, progress.part(0, 0.6)) / larger;
-      hollows_.resize(static_cast<std::size_t>(levels_));
-      for (std::size_t l = 0; l < hollows_.size(); ++l) {
-        std::vector<Grid<float>> maps;
-        for (const HeightSource& source : pyramid_[l].sources) maps.push_back(source.heights);
-        hollows_[l] = hollowsOf(maps, l == 0 ? progress.part(0.6, 0.9) : progress.part(0.9, 0.9));
-        if (l == 0 && hollows_[l].share < kNaturalHollows) break;
-        for (double& share : hollows_[l].bySize) share *= kMoreHollows;
-      }
-    }
-    addBentCopies(pyramid_, examples_,
-                  bendsOf(examples, turns_, !options.turns.empty(), options.seed));
+  Synthesis(const TerrainSources& sources, const TerrainSynthesisOptions& options)
+      : options_(options),
+        examples_(sources.examples),
+        levels_(sources.levels),
+        fall_(sources.fall),
+        hollows_(sources.hollows),
+        turns_(sources.turns),
+        pyramid_(sources.pyramid),
+        guided_(!options.control.guide.empty()),
+        seed_(options.seed) {
     // A guide has heights of its own.
-    if (options.control.guide.empty()) seaLevel_ = seaLevelOf(pyramid_.front());
+    if (!guided_) seaLevel_ = seaLevelOf(pyramid_.front());
     guideLevel_ = options.control.guideLevel < 0
                       ? levels_ - 1
                       : std::min(options.control.guideLevel, levels_ - 1);
@@ -136,7 +91,12 @@ class Synthesis {
     Grid<HeightOrigin> origins;
     double all = 0, done = 0;
     for (int l = 0; l < levels_; ++l) all += std::pow(0.25, l);
-    for (int l = levels_ - 1; l >= 0; --l) {
+    int l = levels_ - 1;
+    if (!options_.control.outlets.empty() && levels_ > kLayoutLevel) {
+      layOut(heights, origins, made, progress);
+      l = kLayoutLevel - 1;
+    }
+    for (; l >= 0; --l) {
       const double share = std::pow(0.25, l) / all;
       makeLevel(l, heights, origins, made, progress.part(done, std::min(1.0, done + share)));
       done += share;
@@ -147,30 +107,18 @@ class Synthesis {
   }
 
  private:
-  static int levelsOf(std::span<const Grid<float>> examples,
-                      const TerrainSynthesisOptions& options) {
-    int least = std::numeric_limits<int>::max();
-    for (const Grid<float>& example : examples)
-      least = std::min({least, example.width(), example.height()});
-    const int result = std::min(options.width, options.height);
-    if (least < kLeastTerrain || result < kLeastTerrain) {
-      throw InputError("height maps have at least " + std::to_string(kLeastTerrain) + " x " +
-                       std::to_string(kLeastTerrain) + " samples; " +
-                       (least < kLeastTerrain ? "an example has a side of " + std::to_string(least)
-                                              : "the result would have " + std::to_string(result)));
-    }
-    int levels = 1;
-    while ((options.levels == 0 ? least >> levels >= kCoarsestSide
-                                : levels < options.levels && least >> levels >= kHeightPatch) &&
-           result >> levels >= kHeightPatch)
-      ++levels;
-    return levels;
-  }
-
   Pixel sizeAt(int l) const {
     Pixel size{options_.width, options_.height};
     for (int n = 0; n < l; ++n) size = {(size.x + 1) / 2, (size.y + 1) / 2};
     return size;
+  }
+
+  /// Which samples of half the resolution hold one that is marked.
+  static Grid<std::uint8_t> anyOf(const Grid<std::uint8_t>& marks) {
+    Grid<std::uint8_t> half((marks.width() + 1) / 2, (marks.height() + 1) / 2);
+    for (int y = 0; y < marks.height(); ++y)
+      for (int x = 0; x < marks.width(); ++x) half(x / 2, y / 2) |= marks(x, y);
+    return half;
   }
 
   void prepareControl() {
@@ -181,19 +129,57 @@ class Synthesis {
       const Pixel size = sizeAt(l);
       if (!given.guide.empty() && l >= guideLevel_)
         control.guide = stretched(given.guide, size.x, size.y);
+      if (!given.outlets.empty())
+        control.outlets =
+            l == 0 ? given.outlets : anyOf(controls_[static_cast<std::size_t>(l - 1)].outlets);
       if (given.hold.empty()) continue;
       if (l == 0) {
         control.given = given.given;
         control.hold = given.hold;
-        control.held = Grid<std::uint8_t>(size.x, size.y);
-        for (std::size_t s = 0; s < control.held.count(); ++s)
-          control.held[s] = control.hold[s] >= 1;
       } else {
         const LevelControl& finer = controls_[static_cast<std::size_t>(l - 1)];
         control.given = coarser(finer.given, finer.hold);
         control.hold = coarser(finer.hold);
       }
+      // Without outlets of their own, coarse resolutions lead water through what is held.
+      if (l == 0 || !given.outlets.empty()) {
+        control.held = Grid<std::uint8_t>(size.x, size.y);
+        for (std::size_t s = 0; s < control.held.count(); ++s)
+          control.held[s] = control.hold[s] >= 1;
+      }
     }
+  }
+
+  /// Makes the coarse resolutions several times over, and keeps what needs the least cuts to lead
+  /// its water to given outlets. Where all need many, a layout like that of the given heights,
+  /// whose water runs there, is one of them.
+  void layOut(Grid<float>& heights, Grid<HeightOrigin>& origins, SynthesizedTerrain& made,
+              const Progress& progress) {
+    const double few = kShallowCuts * relief();
+    double best = std::numeric_limits<double>::infinity();
+    const auto attempt = [&](int number) {
+      seed_ = number == 0 ? options_.seed
+                          : Random(options_.seed, stream::kTerrainStart)
+                                .fork(static_cast<std::uint64_t>(number))
+                                .bits(0);
+      Grid<float> some;
+      Grid<HeightOrigin> from;
+      for (int l = levels_ - 1; l >= kLayoutLevel; --l)
+        makeLevel(l, some, from, made, progress.part(0, 0));
+      if (made.meanCut >= best) return false;
+      best = made.meanCut;
+      heights = std::move(some);
+      origins = std::move(from);
+      return true;
+    };
+    for (int n = 0; n < kLayouts && best > few; ++n) attempt(n);
+    if (best <= few || guided_ || options_.control.given.empty()) return;
+    Grid<float> known = options_.control.given;
+    for (int l = 0; l < guideLevel_; ++l) known = coarser(known);
+    Grid<float>& guide = controls_[static_cast<std::size_t>(guideLevel_)].guide;
+    guide = std::move(known);
+    guided_ = attempt(kLayouts);
+    if (!guided_) guide = {};
   }
 
   void makeLevel(int l, Grid<float>& heights, Grid<HeightOrigin>& origins, SynthesizedTerrain& made,
@@ -218,7 +204,7 @@ class Synthesis {
           heights, origins, size,
           {.size = options_.piece,
            .meanCost = kFinerLevel,
-           .seed = options_.seed,
+           .seed = seed_,
            .level = static_cast<std::uint64_t>(l),
            .turns = turns_,
            .wrapsX = options_.wrapsX,
@@ -266,11 +252,20 @@ class Synthesis {
       control.guide[s] -= std::max(0.0f, before[s] - heights[s]);
   }
 
+  double relief() const {
+    double most = 0;
+    for (std::size_t e = 0; e < examples_; ++e) {
+      if (const auto range = rangeOf(pyramid_.front().sources[e].heights))
+        most = std::max(most, range->relief());
+    }
+    return most;
+  }
+
   /// Gives the layout the examples' heights: each sample becomes what has its rank there. Cuts and
   /// votes draw them together.
   void spread(const HeightLevel& level, Grid<float>& heights) const {
     // What is known of the result has heights of its own.
-    if (!options_.control.guide.empty() || !options_.control.hold.empty()) return;
+    if (guided_ || !options_.control.hold.empty()) return;
     std::vector<float> wanted;
     for (std::size_t e = 0; e < examples_; ++e) {
       std::ranges::copy_if(level.sources[e].heights.values(), std::back_inserter(wanted),
@@ -308,17 +303,18 @@ class Synthesis {
     const double comparisons =
         places * static_cast<double>(turns_.size() * field.matches().count());
     const bool coarsest = l + 1 == levels_;
-    if (coarsest && comparisons <= kMostComparisons) {
+    // Layouts towards given outlets are made several times over.
+    if (coarsest && comparisons <= kMostComparisons && options_.control.outlets.empty()) {
       field.searchAll(level.sources, heights, progress);
     } else {
-      field.search(level.sources, heights, options_.seed,
-                   static_cast<std::uint64_t>(100 * l + round), coarsest ? 24 : 4, progress);
+      field.search(level.sources, heights, seed_, static_cast<std::uint64_t>(100 * l + round),
+                   coarsest ? 24 : 4, progress);
     }
   }
 
   /// Large regions of the examples, from places at random.
   void begin(HeightField& field, const HeightLevel& level) const {
-    const Random random(options_.seed, stream::kTerrainStart);
+    const Random random(seed_, stream::kTerrainStart);
     const Grid<float>& first = level.sources.front().heights;
     const int cell = std::max(kHeightPatch, std::min(first.width(), first.height()) / 2);
     const int across = sizeAt(levels_ - 1).x / cell + 4;
@@ -412,7 +408,7 @@ class Synthesis {
   /// Toward the guide, and to what is given.
   void steer(int l, Grid<float>& heights) const {
     const auto follow = static_cast<float>(options_.control.follow);
-    if (!options_.control.guide.empty()) {
+    if (!controls_[static_cast<std::size_t>(guideLevel_)].guide.empty()) {
       // The difference on the guide's resolution, brought back.
       std::vector<Grid<float>> means;
       for (int n = l; n < guideLevel_; ++n)
@@ -487,12 +483,15 @@ class Synthesis {
     // Few and small ones are faults of a survey, more of them are what the land is like.
     const Hollows& hollows = hollows_[static_cast<std::size_t>(l)];
     const bool keeps = hollows_[0].share >= kNaturalHollows;
+    const LevelControl& control = controls_[static_cast<std::size_t>(l)];
     const OutletsCut cut = cutOutlets(
-        heights, controls_[static_cast<std::size_t>(l)].held,
+        heights, control.held,
         {.fill = fill,
          .fall = std::ldexp(fall_, l) * l / std::max(1, levels_ - 1),
          .bank = pyramid_[static_cast<std::size_t>(l)].bank,
          .kept = keeps ? std::span<const double>(hollows.bySize) : std::span<const double>(),
+         .outlets = control.outlets,
+         .hold = control.outlets.empty() ? Grid<float>{} : control.hold,
          .wrapsX = options_.wrapsX,
          .wrapsY = options_.wrapsY},
         water.bodies.empty() ? nullptr : &water, progress);
@@ -512,12 +511,14 @@ class Synthesis {
   std::size_t examples_;
   int levels_;
   int guideLevel_ = 0;
-  double fall_ = 0;
-  std::vector<Hollows> hollows_;  // of the examples on each resolution, the finest first
+  double fall_;
+  const std::vector<Hollows>& hollows_;
   std::optional<float> seaLevel_;
-  std::vector<int> turns_;
-  std::vector<HeightLevel> pyramid_;    // finest first
-  std::vector<LevelControl> controls_;  // the same
+  const std::vector<int>& turns_;
+  const std::vector<HeightLevel>& pyramid_;
+  std::vector<LevelControl> controls_;  // finest first
+  bool guided_;
+  std::uint64_t seed_;
 };
 
 }  // namespace
@@ -526,7 +527,23 @@ SynthesizedTerrain synthesizeTerrain(std::span<const Grid<float>> examples,
                                      const TerrainSynthesisOptions& options,
                                      const Progress& progress) {
   progress.report("reading the terrain", 0);
-  return Synthesis(examples, options, progress.part(0, 0.02)).run(progress.part(0.02, 1));
+  const TerrainSources sources = terrainSources(examples, options, progress.part(0, 0.02));
+  return Synthesis(sources, options).run(progress.part(0.02, 1));
+}
+
+TerrainSynthesizer::TerrainSynthesizer(std::span<const Grid<float>> examples,
+                                       const TerrainSynthesisOptions& options,
+                                       const Progress& progress)
+    : options_(options),
+      sources_(std::make_unique<TerrainSources>(terrainSources(examples, options, progress))) {}
+TerrainSynthesizer::~TerrainSynthesizer() = default;
+
+SynthesizedTerrain TerrainSynthesizer::make(std::uint64_t seed, const TerrainControl& control,
+                                            const Progress& progress) const {
+  TerrainSynthesisOptions options = options_;
+  options.seed = seed;
+  options.control = control;
+  return Synthesis(*sources_, options).run(progress);
 }
 
 }  // namespace exemplar

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct TerrainControl {
   /// Heights of some of the result's samples (of its size), and how firmly each is held: 1 stays to
   /// the bit, 0 is free, between them both mix.
   Grid<float> given, hold;
+  /// Where water leaves the result, 1 (of its size); empty: all along its border. What is held then
+  /// stays on all resolutions.
+  Grid<std::uint8_t> outlets;
 };
 
 struct TerrainSynthesisOptions {
@@ -77,5 +81,24 @@ struct SynthesizedTerrain {
 SynthesizedTerrain synthesizeTerrain(std::span<const Grid<float>> examples,
                                      const TerrainSynthesisOptions& options,
                                      const Progress& progress = {});
+
+struct TerrainSources;
+
+/// The same for many results of one size, which share what is found out about the examples. The
+/// options' seed says how copies of them bend; their control is not used.
+class TerrainSynthesizer {
+ public:
+  TerrainSynthesizer(std::span<const Grid<float>> examples, const TerrainSynthesisOptions& options,
+                     const Progress& progress = {});
+  ~TerrainSynthesizer();
+
+  /// A result of a seed. Thread-safe; throws `Cancelled`.
+  SynthesizedTerrain make(std::uint64_t seed, const TerrainControl& control,
+                          const Progress& progress = {}) const;
+
+ private:
+  TerrainSynthesisOptions options_;
+  std::unique_ptr<TerrainSources> sources_;
+};
 
 }  // namespace exemplar

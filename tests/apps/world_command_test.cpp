@@ -125,6 +125,52 @@ TEST_F(WorldCommand, ExportIsWhatItsTilesAre) {
   EXPECT_THAT(readFile(folder_ / "r.txt"), HasSubstr("48 24 7"));
 }
 
+/// The tiles below a node of a tileset, by the names of their files, and the boxes in which they
+/// lie. Each node's box holds its children's.
+void collect(const nlohmann::json& node, std::map<std::string, Box3d>& found, const Box3d& outer) {
+  const std::vector<double> b = node.at("boundingVolume").at("box");
+  Vec3d at{0, 0, 0};
+  if (node.contains("transform")) {
+    const std::vector<double> m = node["transform"];
+    at = {m[12], m[13], m[14]};
+  }
+  const Vec3d center = Vec3d{b[0], b[1], b[2]} + at, half{b[3], b[7], b[11]};
+  const Vec3d slack{1e-4, 1e-4, 1e-4};
+  const Box3d box{center - half - slack, center + half + slack};
+  EXPECT_TRUE(outer.contains(center - half) && outer.contains(center + half));
+  if (node.contains("content")) {
+    EXPECT_TRUE(found.emplace(node["content"]["uri"], box).second) << "each tile once";
+    EXPECT_EQ(node["geometricError"], 0);
+  }
+  if (!node.contains("children")) return;
+  for (const auto& child : node["children"]) {
+    EXPECT_LT(child["geometricError"].get<double>(), node["geometricError"].get<double>());
+    collect(child, found, box);
+  }
+}
+
+TEST_F(WorldCommand, TheTilesetHasEachTileWhereItLies) {
+  ASSERT_EQ(world("make w --region -1:2,0:2 --formats glb").status, 0);
+  ASSERT_EQ(world("index w").status, 0);
+  const auto index = nlohmann::json::parse(readFile(folder_ / "w/index.json"));
+  const auto tileset = nlohmann::json::parse(readFile(folder_ / "w/tileset.json"));
+  EXPECT_EQ(tileset["asset"]["version"], "1.1");
+  EXPECT_GE(tileset["geometricError"], tileset["root"]["geometricError"]);
+  std::map<std::string, Box3d> found;
+  collect(tileset["root"], found, {{-1e9, -1e9, -1e9}, {1e9, 1e9, 1e9}});
+  ASSERT_EQ(found.size(), 6u);
+  const double size = index["tile_size"][0];
+  for (int x = -1; x < 2; ++x) {
+    for (int y = 0; y < 2; ++y) {
+      const std::string name = "tiles/0/" + std::to_string(x) + "/" + std::to_string(y) + ".glb";
+      ASSERT_TRUE(found.contains(name)) << name;
+      const Box3d& box = found[name];
+      for (const Vec3d& p : readMesh(folder_ / "w" / name).positions)
+        ASSERT_TRUE(box.contains(p + Vec3d{x * size, y * size, 0})) << name;
+    }
+  }
+}
+
 TEST_F(WorldCommand, PlansHoldEachTileOnce) {
   const auto json = world("plan w --region 0:9,0:5 --as json");
   ASSERT_EQ(json.status, 0) << json.err;
