@@ -71,7 +71,8 @@ const SettingTable<EngineOptions>& table() {
            {"x", Along::X},
            {"y", Along::Y},
            {"z", Along::Z}},
-          "auto: z where the example may not be turned, else none"),
+          "auto: z where the example may not be turned, curvature where it may be turned "
+          "by half and does not repeat, else none"),
       settingRow<O>("strokes", &O::strokes,
                     "a .obj with lines on the surface that the example's y follows"),
       settingRow<O>("cover", &O::cover,

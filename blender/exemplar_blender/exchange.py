@@ -30,6 +30,19 @@ class Exported:
         self.uv_name = self.color_name = ""
         self.triangles = None
 
+    def paint_groups(self, names):
+        """Colors corners by the weights of vertex groups: red by the first, green by the second;
+        empty names paint nothing. Throws ValueError where there is no such group."""
+        weights = {layer[1]: layer[4] for layer in self.layers if layer[0] == "GROUP"}
+        colors = np.ones((len(self.triangles), 3, 4), np.float32)
+        for channel, name in enumerate(names):
+            if not name:
+                continue
+            if name not in weights:
+                raise ValueError(f"the object has no vertex group '{name}'")
+            colors[..., channel] = weights[name][..., 0]
+        self.triangles.colors = colors
+
 
 def _material_key(material):
     return None if material is None else (

@@ -64,7 +64,11 @@ class Synthesis(run.Run):
         elif values["triangles"] == "NUMBER":
             out += ["--triangles", values["number"]]
         if values.get("on"):
-            out += ["--on", "on.glb", "--base", values["base"], "--height", f"{values['height']:.6g}"]
+            cover = values.get("cover")
+            out += ["--on", "on.glb", "--base", "none" if cover else values["base"],
+                    "--height", f"{values['height']:.6g}"]
+            out += ["--cover", "red"] if cover else []
+            out += ["--size-map", "green"] if values.get("sizes") else []
             out += ["--span", f"{values['span']:.6g}"] if values["span"] else []
             return ["synth", "in.glb", "--engine", "surface", "--seed", values["seed"]] + out
         out += ["--scatter"] if values["scatter"] else []
@@ -91,6 +95,8 @@ class Synthesis(run.Run):
 
     def _write(self, context, names, frame, name, thickness=0.0):
         exported = exchange.gather(context, names, frame, thickness)
+        if name == "on.glb":
+            exported.paint_groups([self.values.get("cover"), self.values.get("sizes")])
         example = bpy.path.clean_name(names[0]) or "example"
         glb.write(self.file(name), exported.triangles, exported.colors, example)
         return exported

@@ -139,8 +139,13 @@ class EXEMPLAR_PT_surface(_Tab, bpy.types.Panel):
         layout.prop(group, "on")
         rest = layout.column()
         rest.enabled = group.on is not None
+        if group.on is not None:
+            for key in ("cover", "sizes"):
+                rest.prop_search(group, key, group.on, "vertex_groups")
         for key in ("span", "base", "height"):
-            rest.prop(group, key)
+            line = rest.column()
+            line.enabled = key != "base" or not group.cover
+            line.prop(group, key)
 
 
 class EXEMPLAR_PT_modules(_Tab, bpy.types.Panel):

@@ -66,6 +66,12 @@ class Extend(bpy.types.PropertyGroup):
         ("carve", "Carve", "The sheet is cut out of the object")])
     height: FloatProperty(name="Height", default=1, min=0.05, soft_max=4, description=(
         "Scales the example's height alone, on a surface"))
+    cover: StringProperty(name="Cover", description=(
+        "Vertex group of the object: the example lies where its weight is at least one half; none: "
+        "everywhere. What lies on a part is a sheet of its own"))
+    sizes: StringProperty(name="Sizes", description=(
+        "Vertex group of the object: where its weight is 0 the example has half its size, where it "
+        "is 1 twice; none: its size everywhere"))
     draft: BoolProperty(name="Draft First", description=(
         "Show a coarse result as wires until the final one replaces it. It shows the size, not the "
         "layout: another resolution is another layout"))

@@ -170,28 +170,37 @@ class Fitting {
   }
 
   std::size_t findDirections(double room) {
-    std::vector<Vec3l> chosen;
+    struct Choice {
+      Vec3l normal;
+      Vec3d unit;
+    };
+    std::vector<Choice> chosen;
     std::set<std::array<std::int64_t, 3>> distinct;
     for (Patch& patch : patches_) {
       patch.dropped =
           patch.area / (2 * patch.radius) < kNarrow * room || length(patch.areaNormal) == 0;
       if (patch.dropped) continue;
       const double slack = std::min(kMostTurn, std::asin(std::min(1.0, room / patch.radius)));
-      double nearest = std::max(slack, 1e-6);
+      // Angles as squares of chords: there are as many as patches times directions.
+      const Vec3d unit = normalized(patch.areaNormal);
+      const double chord = 2 * std::sin(std::max(slack, 1e-6) / 2);
+      double nearest = chord * chord;
       const Vec3l* found = nullptr;
-      for (const Vec3l& n : chosen) {
-        const double angle = angleBetween(cast<double>(n), patch.areaNormal);
-        if (angle > nearest) continue;
-        nearest = angle;
-        found = &n;
+      for (const Choice& choice : chosen) {
+        const Vec3d off = choice.unit - unit;
+        const double square = dot(off, off);
+        if (square > nearest) continue;
+        nearest = square;
+        found = &choice.normal;
       }
       if (found) {
         patch.normal = *found;
         continue;
       }
       patch.normal = integerDirection(patch.areaNormal, slack);
-      chosen.push_back(patch.normal);
-      chosen.push_back(-patch.normal);
+      const Vec3d own = normalized(cast<double>(patch.normal));
+      chosen.push_back({patch.normal, own});
+      chosen.push_back({-patch.normal, -own});
       const Vec3l n = canonical(patch.normal);
       distinct.insert({n.x, n.y, n.z});
     }

@@ -6,6 +6,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -115,6 +116,39 @@ Vector guided(const Sheet& sheet, const std::vector<std::uint32_t>& nodes, int s
   return solver.solve(wanted);
 }
 
+/// Taubin's matrix at a node: the mean of d d^T over directions d, each by the curvature along it.
+class CurvatureTensor {
+ public:
+  CurvatureTensor() = default;
+  CurvatureTensor(const Sheet& sheet, std::uint32_t v) {
+    const Vec3d& normal = sheet.nodeNormals[v];
+    const auto links = sheet.links(v);
+    for (const Sheet::Link& link : links) {
+      const Vec3d step = sheet.positions[link.node] - sheet.positions[v];
+      const Vec3d inPlane = step - normal * dot(step, normal);
+      const double square = dot(inPlane, inPlane);
+      if (square == 0) continue;
+      const double curvature = dot(sheet.nodeNormals[link.node] - normal, inPlane) / square;
+      const Vec3d weighed = inPlane * (curvature / (square * static_cast<double>(links.size())));
+      for (int axis = 0; axis < 3; ++axis) rows_[axis] += inPlane * weighed[axis];
+    }
+  }
+  void add(const CurvatureTensor& other) {
+    for (int axis = 0; axis < 3; ++axis) rows_[axis] += other.rows_[axis];
+  }
+  CurvatureTensor times(double factor) const {
+    CurvatureTensor result = *this;
+    for (Vec3d& row : result.rows_) row = row * factor;
+    return result;
+  }
+  double along(const Vec3d& a, const Vec3d& b) const {
+    return a.x * dot(rows_[0], b) + a.y * dot(rows_[1], b) + a.z * dot(rows_[2], b);
+  }
+
+ private:
+  std::array<Vec3d, 3> rows_{};
+};
+
 /// Indices from how the field turns around each triangle beside what the surface does.
 void findSingularities(const Sheet& sheet, DirectionField& field) {
   const int n = field.symmetry;
@@ -179,42 +213,41 @@ Guidance along(const Sheet& sheet, const Vec3d& direction, double reach) {
 }
 
 Guidance alongLeastCurvature(const Sheet& sheet, double reach) {
-  Guidance guidance;
-  guidance.reach = reach;
-  guidance.angle.assign(sheet.positions.size(), 0);
-  guidance.confidence.assign(sheet.positions.size(), 0);
-  parallelFor(0, sheet.positions.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const Vec3d& normal = sheet.nodeNormals[v];
-      const Vec3d x = sheet.axes[v], y = cross(normal, x);
-      // Taubin's matrix: the mean of d d^T, each by the curvature along d.
-      double xx = 0, xy = 0, yy = 0;
-      const auto links = sheet.links(static_cast<std::uint32_t>(v));
-      for (const Sheet::Link& link : links) {
-        const Vec3d step = sheet.positions[link.node] - sheet.positions[v];
-        const Vec3d turned = sheet.nodeNormals[link.node] - normal;
-        const double a = dot(step, x), b = dot(step, y), square = a * a + b * b;
-        if (square == 0) continue;
-        const double curvature = (dot(turned, x) * a + dot(turned, y) * b) / square;
-        const double weight = curvature / (square * static_cast<double>(links.size()));
-        xx += weight * a * a;
-        xy += weight * a * b;
-        yy += weight * b * b;
-      }
-      const double mean = (xx + yy) / 2, half = std::hypot((xx - yy) / 2, xy);
-      // Its eigenvalues are 3/8 of one principal curvature and 1/8 of the other.
-      const double most = 3 * (mean + half) - (mean - half);
-      const double least = 3 * (mean - half) - (mean + half);
-      const double larger = std::max(std::abs(most), std::abs(least));
-      if (larger == 0) continue;
-      const double along = std::atan2(xy, (xx - yy) / 2) / 2;  // of `most`
-      const double angle = std::abs(most) < std::abs(least) ? along : along + kPi / 2;
-      const Vec3d direction = x * std::cos(angle) + y * std::sin(angle);
-      guidance.angle[v] = sheet.angleOf(static_cast<std::uint32_t>(v),
-                                        direction.z < 0 ? direction * -1.0 : direction);
-      guidance.confidence[v] =
-          std::abs(std::abs(most) - std::abs(least)) / larger * std::min(1.0, larger * reach);
-    }
+  const std::size_t n = sheet.positions.size();
+  std::vector<CurvatureTensor> tensors(n), next(n);
+  const auto forNodes = [&](const auto& work) {
+    parallelFor(0, n, 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) work(static_cast<std::uint32_t>(v));
+    });
+  };
+  forNodes([&](std::uint32_t v) { tensors[v] = CurvatureTensor(sheet, v); });
+  // Bumps and dents, as of a scan, take each other away.
+  constexpr int kRounds = 12;
+  for (int round = 0; round < kRounds; ++round) {
+    forNodes([&](std::uint32_t v) {
+      CurvatureTensor sum = tensors[v];
+      for (const Sheet::Link& link : sheet.links(v)) sum.add(tensors[link.node]);
+      next[v] = sum.times(1.0 / static_cast<double>(sheet.links(v).size() + 1));
+    });
+    tensors.swap(next);
+  }
+  Guidance guidance{std::vector<double>(n, 0), std::vector<double>(n, 0), reach};
+  forNodes([&](std::uint32_t v) {
+    const Vec3d x = sheet.axes[v], y = cross(sheet.nodeNormals[v], x);
+    const double xx = tensors[v].along(x, x), xy = tensors[v].along(x, y),
+                 yy = tensors[v].along(y, y);
+    const double mean = (xx + yy) / 2, half = std::hypot((xx - yy) / 2, xy);
+    // The eigenvalues are 3/8 of one principal curvature and 1/8 of the other.
+    const double most = 3 * (mean + half) - (mean - half);
+    const double least = 3 * (mean - half) - (mean + half);
+    const double larger = std::max(std::abs(most), std::abs(least));
+    if (larger == 0) return;
+    const double ofMost = std::atan2(xy, (xx - yy) / 2) / 2;
+    const double angle = std::abs(most) < std::abs(least) ? ofMost : ofMost + kPi / 2;
+    const Vec3d direction = x * std::cos(angle) + y * std::sin(angle);
+    guidance.angle[v] = sheet.angleOf(v, direction.z < 0 ? direction * -1.0 : direction);
+    guidance.confidence[v] =
+        std::abs(std::abs(most) - std::abs(least)) / larger * std::min(1.0, larger * reach);
   });
   return guidance;
 }

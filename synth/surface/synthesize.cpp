@@ -104,8 +104,10 @@ double steepShare(const Sheet& sheet, double height) {
 
 /// The field's guidance: strokes, a direction, or none. The field is that of the example's x, a
 /// quarter turn before its y.
-std::optional<Guidance> guidanceOf(const Sheet& sheet, const SurfaceOptions& options, int symmetry,
-                                   double span, double sample) {
+std::optional<Guidance> guidanceOf(const Sheet& sheet, const SurfaceOptions& options,
+                                   const SurfaceFigures& example, double span, double sample) {
+  // Bark and the like: neither way of its y is another, and nothing else says how it lies.
+  const bool hasGrain = example.symmetry == 2 && example.periods == 0;
   std::optional<Guidance> guidance;
   if (!options.strokes.empty()) {
     guidance = alongStrokes(sheet, options.strokes, 2 * sample, span / 4);
@@ -113,9 +115,9 @@ std::optional<Guidance> guidanceOf(const Sheet& sheet, const SurfaceOptions& opt
       throw InputError(
           "`strokes`: no line runs on the surface; its lines must be in the surface's "
           "own coordinates");
-  } else if (options.leastCurvature) {
+  } else if (options.leastCurvature || (hasGrain && !options.along && !options.smoothest)) {
     guidance = alongLeastCurvature(sheet, span / 4);
-  } else if (options.along || (symmetry == 1 && !options.smoothest)) {
+  } else if (options.along || (example.symmetry == 1 && !options.smoothest)) {
     guidance = along(sheet, options.along.value_or(Vec3d{0, 0, 1}), span / 4);
   }
   if (guidance)
@@ -196,7 +198,7 @@ SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMe
   figures.base = baseOf(slab, figures.closed, options.base);
   stage("sheet");
 
-  const std::optional<Guidance> guidance = guidanceOf(sheet, options, symmetry.turns, span, sample);
+  const std::optional<Guidance> guidance = guidanceOf(sheet, options, figures, span, sample);
   const DirectionField field = smoothestField(
       sheet, symmetry.turns, guidance ? &*guidance : nullptr, progress.part(0.1, 0.2));
   setField(sheet, field, figures);

@@ -34,7 +34,8 @@ struct SurfaceOptions {
   std::optional<Base> base;
   double height = 1;            ///< of the example, of its own, 0.05..20
   std::optional<int> symmetry;  ///< turns that the example allows, 1, 2, 4 or 6; found
-  /// A direction in space that the example's y follows; where it has no turns, z.
+  /// A direction in space that the example's y follows; where it has no turns, z; where it has half
+  /// turns and does not repeat, `leastCurvature`.
   std::optional<Vec3d> along;
   bool leastCurvature = false;  ///< follow the way in which the surface bends least instead
   bool smoothest = false;       ///< no direction is followed, even where the example has no turns

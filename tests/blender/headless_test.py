@@ -50,6 +50,26 @@ def solid(name="Ball", place=(0, 0, 0), size=1.0, segments=12):
     return bpy.context.active_object
 
 
+def studded_plate():
+    """6 x 6 studs of gold on a plate, which goes on to its sides."""
+    made = bpy.data.meshes.new("Studs")
+    points, faces = [], []
+    for x in range(6):
+        for y in range(6):
+            for low, high in (((x, y, 0), (x + 1, y + 1, 0.3)),
+                              ((x + 0.25, y + 0.25, 0.2), (x + 0.75, y + 0.75, 0.8))):
+                at = len(points)
+                points += [tuple((low, high)[n >> a & 1][a] for a in range(3)) for n in range(8)]
+                faces += [[at + n for n in quad] for quad in (
+                    (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))]
+    made.from_pydata(points, [], faces)
+    made.materials.append(scene.material("Gold", (0.9, 0.7, 0.1)))
+    studs = bpy.data.objects.new("Studs", made)
+    studs.location = (30, 0, 0)
+    bpy.context.scene.collection.objects.link(studs)
+    return studs
+
+
 class InAScene(unittest.TestCase):
     def setUp(self):
         bpy.ops.wm.read_homefile(use_factory_startup=False, use_empty=True)
@@ -195,22 +215,7 @@ class Extend(InAScene):
         self.assertLess(np.quantile(far, 0.9), 0.1)  # the ball is there, to a voxel
 
     def test_lies_on_another_object(self):
-        """Studs on a plate, on a ball."""
-        made = bpy.data.meshes.new("Studs")
-        points, faces = [], []
-        for x in range(6):
-            for y in range(6):
-                for low, high in (((x, y, 0), (x + 1, y + 1, 0.3)),
-                                  ((x + 0.25, y + 0.25, 0.2), (x + 0.75, y + 0.75, 0.8))):
-                    at = len(points)
-                    points += [tuple((low, high)[n >> a & 1][a] for a in range(3)) for n in range(8)]
-                    faces += [[at + n for n in quad] for quad in (
-                        (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))]
-        made.from_pydata(points, [], faces)
-        made.materials.append(scene.material("Gold", (0.9, 0.7, 0.1)))
-        studs = bpy.data.objects.new("Studs", made)
-        studs.location = (30, 0, 0)
-        bpy.context.scene.collection.objects.link(studs)
+        studs = studded_plate()
         ball = solid("Ball", (5, 5, 5), 6.0, 32)
         more = extend(studs, on=ball, span=8.0, samples=24)
         self.assertIs(more.data.materials[0], bpy.data.materials["Gold"])
@@ -224,6 +229,27 @@ class Extend(InAScene):
         scene.choose(more)
         with self.assertRaisesRegex(RuntimeError, "choose more Detail"):
             bpy.ops.exemplar.again(how="REFINE2")
+
+    def test_vertex_groups_say_where_on_an_object_and_how_large(self):
+        studs = studded_plate()
+        ball = solid("Ball", (5, 5, 5), 6.0, 32)
+        top, size = ball.vertex_groups.new(name="top"), ball.vertex_groups.new(name="size")
+        for vertex in ball.data.vertices:
+            top.add([vertex.index], 1.0 if vertex.co.z > 0 else 0.0, "REPLACE")
+            size.add([vertex.index], 0.0, "REPLACE")
+        more = extend(studs, on=ball, span=8.0, samples=16, cover="top")
+        points = scene.world_points(more)
+        self.assertGreater(points[:, 2].min(), 4)
+        self.assertGreater(points[:, 2].max(), 10.8)
+        # Half as large, it is half as thick.
+        thick = np.ptp(np.linalg.norm(points - (5, 5, 5), axis=1))
+        studs.hide_set(False)
+        less = extend(studs, on=ball, span=8.0, samples=16, sizes="size")
+        thin = np.ptp(np.linalg.norm(scene.world_points(less) - (5, 5, 5), axis=1))
+        self.assertLess(thin, 0.75 * thick)
+        studs.hide_set(False)
+        with self.assertRaisesRegex(RuntimeError, "no vertex group 'skirt'"):
+            extend(studs, on=ball, cover="skirt")
 
     def test_guide_and_mix_are_heard(self):
         first = solid(size=0.8)

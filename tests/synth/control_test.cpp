@@ -276,9 +276,9 @@ TEST(Rotations, AreRefusedWherePlacesMatter) {
 }
 
 TEST(Control, IsTheSameAtAnyNumberOfThreads) {
-  const DistanceField a = balls({28, 28, 28}, 4, 7), b = balls({24, 30, 28}, 4, 8);
+  const DistanceField a = balls({24, 24, 24}, 4, 7), b = balls({22, 26, 24}, 4, 8);
   const DistanceField* examples[] = {&a, &b};
-  VotingOptions options = sized({36, 28, 28});
+  VotingOptions options = sized({32, 24, 24});
   options.periodic = {false, true, false};
   options.rotations = true;
   options.stationary = Axes::every();

@@ -196,13 +196,13 @@ TEST(LayersInSpace, EveryCellComesFromItsOwnLayer) {
 }
 
 TEST(MeasureLayers, TellsVolumesApart) {
-  const LayerVolume example = balls(40, 5, 1);
+  const LayerVolume example = balls(28, 5, 1);
   const LayersLikeness itself = measureLayers(example, true, example);
   for (const LayerLikeness& layer : itself.layers) {
     EXPECT_EQ(layer.toExample, 0);
     EXPECT_EQ(layer.boundaryRatio, 1);
   }
-  LayerVolume noise(Vec3i{40, 40, 40});
+  LayerVolume noise(Vec3i{28, 28, 28});
   const Random random(1);
   for (std::size_t p = 0; p < noise.count(); ++p)
     noise.data()[p] = static_cast<std::uint8_t>(1 + random.below(3, p));
@@ -210,8 +210,8 @@ TEST(MeasureLayers, TellsVolumesApart) {
   EXPECT_GT(*ofNoise.layers[0].toExample, 0.2);
   EXPECT_GT(*ofNoise.layers[0].boundaryRatio, 3);
   // The example twice.
-  LayerVolume twice(Vec3i{80, 40, 40});
-  forEachCell(twice.size(), [&](const Vec3i& p) { twice[p] = example(p.x % 40, p.y, p.z); });
+  LayerVolume twice(Vec3i{56, 28, 28});
+  forEachCell(twice.size(), [&](const Vec3i& p) { twice[p] = example(p.x % 28, p.y, p.z); });
   EXPECT_GT(*measureLayers(example, true, twice).repeated, 0.5);
 }
 
