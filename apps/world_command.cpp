@@ -334,6 +334,58 @@ void addJob(CLI::App& command, Options& options) {
       ->option_text("N");
 }
 
+void addInit(CLI::App& command, Options& o) {
+  command
+      .add_option("EXAMPLE", o.example,
+                  "a grid of labels, a scene of pieces, a picture, a mesh with a `cell`, or a "
+                  "height map")
+      ->required();
+  command.add_option("-o,--output", o.output, "the world's folder, which is made")->required();
+  command
+      .add_option("--engine", o.engine, "what makes it (auto: terrain of a height map, else model)")
+      ->option_text("auto|model|terrain");
+  command.add_option("--tile", o.side, "columns along each side of a tile (72; of heights 256)")
+      ->check(CLI::Range(8, kMostTileSide));
+  command
+      .add_option("--window", o.window, "columns from one window to the next (36; of heights 384)")
+      ->check(CLI::Range(12, 1024));
+  command.add_option("--height", o.height, "cells (as many as the example has)")
+      ->check(CLI::Range(1, 1024));
+  SettingOptions settings;
+  std::vector<Setting> seed;
+  for (const Setting& setting : requestSettings())
+    if (setting.key == "seed") seed.push_back(setting);
+  settings.add("Request", "", seed);
+  settings.add("Reading labels, or a mesh or picture cut into labels", "",
+               readingSettings(Form::Labels).settings());
+  settings.add("Reading a height map", "", readingSettings(Form::Heights).settings());
+  settings.add("Engine model", "", engineNamed("model").settings());
+  settings.add("Engine terrain", "", engineNamed("terrain").settings());
+  settings.install(command, o.settings);
+}
+void addServe(CLI::App& command, Options& o) {
+  addWorld(command, o);
+  command.add_option("--port", o.server.port, "where to listen; 0: any port that is free (8700)")
+      ->check(CLI::Range(0, 65535))
+      ->option_text("N");
+  command
+      .add_option("--host", o.server.host,
+                  "the address to listen at; others than this machine's own show the "
+                  "world to whoever reaches it (127.0.0.1)")
+      ->option_text("ADDRESS");
+  command
+      .add_option("--waiting", o.server.waiting,
+                  "how many requests may wait for a tile that is being made (8)")
+      ->check(CLI::Range(0, 1000))
+      ->option_text("N");
+  command
+      .add_option("--most", o.server.most,
+                  "how many tiles are made, and kept in the world's folder, at most (4096)")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
+  addCache(command, o);
+}
+
 }  // namespace
 
 std::vector<Command> addWorldCommands(CLI::App& app) {
@@ -350,37 +402,7 @@ std::vector<Command> addWorldCommands(CLI::App& app) {
     commands.push_back({command, addCommonOptions(*command),
                         [options, run](Terminal& terminal) { run(*options, terminal); }});
   };
-  add("init", "Make a world of an example", init, [](CLI::App& command, Options& o) {
-    command
-        .add_option("EXAMPLE", o.example,
-                    "a grid of labels, a scene of pieces, a picture, a mesh with a `cell`, or a "
-                    "height map")
-        ->required();
-    command.add_option("-o,--output", o.output, "the world's folder, which is made")->required();
-    command
-        .add_option("--engine", o.engine,
-                    "what makes it (auto: terrain of a height map, else model)")
-        ->option_text("auto|model|terrain");
-    command.add_option("--tile", o.side, "columns along each side of a tile (72; of heights 256)")
-        ->check(CLI::Range(8, kMostTileSide));
-    command
-        .add_option("--window", o.window,
-                    "columns from one window to the next (36; of heights 384)")
-        ->check(CLI::Range(12, 1024));
-    command.add_option("--height", o.height, "cells (as many as the example has)")
-        ->check(CLI::Range(1, 1024));
-    SettingOptions settings;
-    std::vector<Setting> seed;
-    for (const Setting& setting : requestSettings())
-      if (setting.key == "seed") seed.push_back(setting);
-    settings.add("Request", "", seed);
-    settings.add("Reading labels, or a mesh or picture cut into labels", "",
-                 readingSettings(Form::Labels).settings());
-    settings.add("Reading a height map", "", readingSettings(Form::Heights).settings());
-    settings.add("Engine model", "", engineNamed("model").settings());
-    settings.add("Engine terrain", "", engineNamed("terrain").settings());
-    settings.install(command, o.settings);
-  });
+  add("init", "Make a world of an example", init, addInit);
   add("tile", "Make one tile, alone", tile, [](CLI::App& command, Options& o) {
     addWorld(command, o);
     command.add_option("TILE", o.tile, "its number along x and y: 3,-2")->required();
@@ -432,29 +454,7 @@ std::vector<Command> addWorldCommands(CLI::App& app) {
       "List the tiles that are there, in index.json, and those with a .glb in tileset.json", index,
       [](CLI::App& command, Options& o) { addWorld(command, o); });
   add("serve", "Make tiles when they are asked for, and show a page that flies over them", serve,
-      [](CLI::App& command, Options& o) {
-        addWorld(command, o);
-        command
-            .add_option("--port", o.server.port, "where to listen; 0: any port that is free (8700)")
-            ->check(CLI::Range(0, 65535))
-            ->option_text("N");
-        command
-            .add_option("--host", o.server.host,
-                        "the address to listen at; others than this machine's own show the "
-                        "world to whoever reaches it (127.0.0.1)")
-            ->option_text("ADDRESS");
-        command
-            .add_option("--waiting", o.server.waiting,
-                        "how many requests may wait for a tile that is being made (8)")
-            ->check(CLI::Range(0, 1000))
-            ->option_text("N");
-        command
-            .add_option("--most", o.server.most,
-                        "how many tiles are made, and kept in the world's folder, at most (4096)")
-            ->check(CLI::NonNegativeNumber)
-            ->option_text("N");
-        addCache(command, o);
-      });
+      addServe);
   return commands;
 }
 

@@ -96,16 +96,39 @@ class WorldServer {
     if (port <= 0)
       throw InputError("cannot listen at " + options_.host + ":" + std::to_string(options_.port) +
                        "; is the port in use? choose another `port`");
-    std::thread thread([this] { server_.listen_after_bind(); });
+    Listening thread(*this);
     listening("http://" + options_.host + ":" + std::to_string(port) + "/");
     while (!progress.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    stopping_ = true;
-    server_.stop();
-    thread.join();
     progress.check();
   }
 
  private:
+  /// Listens while it lives. What is being made then hears that it should stop.
+  class Listening {
+   public:
+    explicit Listening(WorldServer& server) : server_(server) {
+      thread_ = std::thread([this] {
+        server_.server_.listen_after_bind();
+        ended_ = true;
+      });
+      // A server that does not run yet cannot be stopped.
+      while (!server_.server_.is_running() && !ended_)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ~Listening() {
+      server_.stopping_ = true;
+      server_.server_.stop();
+      thread_.join();
+    }
+    Listening(const Listening&) = delete;
+    Listening& operator=(const Listening&) = delete;
+
+   private:
+    WorldServer& server_;
+    std::thread thread_;
+    std::atomic<bool> ended_{false};
+  };
+
   static void say(httplib::Response& response, int status, const std::string& text) {
     response.status = status;
     if (status == 503) response.set_header("Retry-After", "1");
@@ -118,7 +141,8 @@ class WorldServer {
       return true;
     std::string_view name = host;
     if (!name.starts_with('[')) name = name.substr(0, name.rfind(':'));
-    return name == "127.0.0.1" || name == "localhost" || name.starts_with("[::1]");
+    return name == "127.0.0.1" || name == "localhost" || name == "[::1]" ||
+           name.starts_with("[::1]:");
   }
 
   void answer(const httplib::Request& request, httplib::Response& response) {

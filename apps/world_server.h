@@ -14,7 +14,7 @@
 namespace exemplar {
 
 struct WorldServerOptions {
-  /// The address that is listened at: this machine alone, unless told otherwise.
+  /// The address that is listened at: this machine alone by default.
   std::string host = "127.0.0.1";
   int port = 8700;  ///< 0: one that is free
   int waiting = 8;  ///< requests for tiles that may wait for one that is being made, 0..1000

@@ -19,8 +19,9 @@
 /// Worlds: an example without end, made tile by tile.
 namespace exemplar {
 
-/// What a new world is to be.
 inline constexpr int kMostTileSide = 4096;  ///< columns
+
+/// What a new world is to be.
 struct WorldRequest {
   Source example;
   std::string engine;       ///< empty: the one that the example asks for

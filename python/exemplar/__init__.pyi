@@ -201,8 +201,8 @@ class Result:
 class World:
     def __init__(self, folder: _Path, *, cached: bool = ...) -> None: ...
     @classmethod
-    def create(cls, folder: _Path, example: _Thing, *, engine: str = ..., tile: int = ...,
-               window: int = ..., height: Union[int, None] = ..., progress: _Progress = ...,
+    def create(cls, folder: _Path, example: _Thing, *, engine: str = ..., tile: Union[int, None] = ...,
+               window: Union[int, None] = ..., height: Union[int, None] = ..., progress: _Progress = ...,
                threads: int = ..., **settings: Any) -> World: ...
     @property
     def folder(self) -> Path: ...

@@ -22,7 +22,7 @@ namespace {
 
 /// Parts of a window's pitch: its rim; by how much that may be wider; where old and new mix; and
 /// how many samples the heights of the wider rim are apart.
-constexpr int kRimPart = 8, kWavePart = 16, kBlendPart = 16, kNoisePart = 12;
+constexpr int kRimPart = 8, kWavePart = 16, kBlendPart = 8, kNoisePart = 12;
 /// Around the place where water ends, samples: what stays, and where that mixes.
 constexpr double kStays = 2, kMixes = 12;
 /// How far heights may leave the examples', of the relief.

@@ -52,6 +52,11 @@ struct OutletsCut {
 /// not 0 stay, and so may what lies behind them. NaN samples are outlets. O(samples), one thread,
 /// 10 bytes a sample. Throws `Cancelled`.
 ///
+/// With `outlets`, water leaves there alone. What lies below all ways to them is lifted, a hollow of
+/// which some is held is cut and not filled, and where the lowest way leads up over what is held
+/// another one is cut through what is not. If there was such a way for every held sample, nothing
+/// is left flooded; exactly so, and so in O(n log n).
+///
 /// Bodies of water (may be null) stay flat: the sea takes all water, and each lake gets one outlet,
 /// which begins at its level.
 OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,

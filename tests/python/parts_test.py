@@ -315,6 +315,19 @@ class Worlds(WithFiles):
         with self.assertRaises(exemplar.InputError):
             exemplar.World.create(self.path("other"), example, tile=1)
 
+    def test_tiles_of_heights_share_a_row(self):
+        x, y = np.meshgrid(np.arange(64), np.arange(64))
+        example = exemplar.Heights(
+            200 + 60 * np.sin(0.11 * x) * np.cos(0.09 * y) + 20 * np.sin(0.31 * x + 0.27 * y), cell_size=10)
+        world = exemplar.World.create(self.path("hills"), example, seed=2, tile=32, window=96)
+        self.assertEqual((world.engine, world.tile_size), ("terrain", 32))
+        west, east = world.tile(-1, 2).heights.heights, world.tile(0, 2).heights.heights
+        self.assertEqual(west.shape, (33, 33))
+        np.testing.assert_array_equal(west[:, 32], east[:, 0])
+        self.assertTrue((west[:, 0] != east[:, 32]).any())
+        with self.assertRaises(exemplar.InputError):
+            exemplar.World.create(self.path("other"), example, window=12)
+
 
 class Converters(WithFiles):
     """Run where the other package is there; Debian 12 has neither trimesh nor pyvista, whose

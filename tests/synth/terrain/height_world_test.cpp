@@ -75,20 +75,34 @@ TEST(HeightWorld, WaterRunsEverywhereAcrossWindows) {
   EXPECT_GT(flooded(broken), 0);
 }
 
-TEST(HeightWorld, PartsAreTheSameAloneAndOnOneThread) {
-  for (const PlaneBox& part : {PlaneBox{{100, 100}, {130, 190}}, PlaneBox{{-40, 30}, {-20, 60}}}) {
-    const HeightWorld::Region alone = onThreads(1, [&] { return NewWorld().world.region(part); });
-    const int left = static_cast<int>(part.begin.x - kBox.begin.x),
-              top = static_cast<int>(kBox.end.y - part.end.y);
-    int different = 0;
-    for (int y = 0; y < alone.heights.height(); ++y) {
-      for (int x = 0; x < alone.heights.width(); ++x) {
-        different += alone.heights(x, y) != region().heights(left + x, top + y) ||
-                     !(alone.origins(x, y) == region().origins(left + x, top + y));
-      }
+/// Whether a part of the region is what another world made of it.
+bool isPartOfRegion(const HeightWorld::Region& part, const PlaneBox& box) {
+  const int left = static_cast<int>(box.begin.x - kBox.begin.x),
+            top = static_cast<int>(kBox.end.y - box.end.y);
+  for (int y = 0; y < part.heights.height(); ++y) {
+    for (int x = 0; x < part.heights.width(); ++x) {
+      if (part.heights(x, y) != region().heights(left + x, top + y)) return false;
+      if (!(part.origins(x, y) == region().origins(left + x, top + y))) return false;
     }
-    EXPECT_EQ(different, 0);
   }
+  return true;
+}
+
+TEST(HeightWorld, PartsAreTheSameInAnyOrderAtAnyThreads) {
+  const PlaneBox parts[] = {
+      {{100, 100}, {130, 190}}, {{-40, 30}, {-20, 60}}, {{40, 90}, {70, 110}}};
+  const int orders[3][3] = {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}};
+  for (int n = 0; n < 3; ++n) {
+    onThreads(n == 1 ? 8 : 1, [&] {
+      const NewWorld nothing;
+      // The first alone, the others with what the first have left in the cache.
+      for (const int which : orders[n])
+        EXPECT_TRUE(isPartOfRegion(nothing.world.region(parts[which]), parts[which]))
+            << n << " " << which;
+      return 0;
+    });
+  }
+  EXPECT_FALSE(isPartOfRegion(NewWorld().world.region(parts[1]), {{-39, 30}, {-19, 60}}));
 }
 
 /// The mean step of heights along x to the columns where a phase's rims begin or end, over the mean

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "maps/drainage.h"
@@ -98,6 +99,79 @@ TEST(CutOutlets, LeavesHeldSamples) {
       ASSERT_EQ(heights[s], before[s]);
     }
   }
+}
+
+/// Land that is held along its border, from whose samples water leaves at some of those alone.
+struct HeldBorder {
+  Grid<float> heights;
+  Grid<std::uint8_t> held{60, 60}, outlets{60, 60};
+};
+/// A plane that falls to the east, and other land inside of it.
+HeldBorder heldBorder() {
+  HeldBorder made{ridges(60, 60, 7)};
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      const bool inside = x >= 8 && y >= 8 && x < 52 && y < 52;
+      made.held(x, y) = !inside;
+      if (!inside) made.heights(x, y) = static_cast<float>(900 - 5 * x);
+      made.outlets(x, y) = x == 59;
+    }
+  }
+  return made;
+}
+/// Samples that lie below where water leaves by these outlets alone.
+std::size_t floodedBeyond(const Grid<float>& heights, const Grid<std::uint8_t>& outlets) {
+  // Walls around, and holes where water leaves.
+  Grid<float> walled(heights.width() + 2, heights.height() + 2, 1e6f);
+  for (int y = 0; y < heights.height(); ++y) {
+    for (int x = 0; x < heights.width(); ++x) {
+      walled(x + 1, y + 1) =
+          outlets(x, y) ? std::numeric_limits<float>::quiet_NaN() : heights(x, y);
+    }
+  }
+  const Drainage drainage = drain(walled);
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < walled.count(); ++s)
+    count += walled[s] < 1e6f && drainage.levels[s] > walled[s];
+  return count;
+}
+
+TEST(CutOutlets, LeadsWaterToGivenOutletsThroughWhatIsNotHeld) {
+  HeldBorder land = heldBorder();
+  const Grid<float> before = land.heights;
+  ASSERT_GT(floodedBeyond(land.heights, land.outlets), 500u);
+  for (const double fill : {0.0, 0.5}) {
+    land.heights = before;
+    const OutletsCut cut =
+        cutOutlets(land.heights, land.held, {.fill = fill, .outlets = land.outlets});
+    EXPECT_EQ(floodedBeyond(land.heights, land.outlets), 0u) << fill;
+    EXPECT_EQ(cut.left, 0);
+    for (std::size_t s = 0; s < before.count(); ++s)
+      ASSERT_TRUE(!land.held[s] || land.heights[s] == before[s]);
+  }
+}
+
+TEST(CutOutlets, LiftsWhatLiesBelowEveryGivenOutlet) {
+  HeldBorder land = heldBorder();
+  // Water leaves where the land is highest, which what is held around does not reach.
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      land.outlets(x, y) = x == 0 && y > 20 && y < 40;
+      if (land.held(x, y)) land.heights(x, y) = x < 8 ? 700.0f + x : 800.0f;
+    }
+  }
+  cutOutlets(land.heights, land.held, {.outlets = land.outlets});
+  for (int y = 8; y < 52; ++y)
+    for (int x = 8; x < 52; ++x) ASSERT_GE(land.heights(x, y), 707.0f);
+  EXPECT_EQ(floodedBeyond(land.heights, land.outlets), 0u);
+}
+
+TEST(CutOutlets, CountsPitsBehindWhatIsHeld) {
+  HeldBorder land = heldBorder();
+  // A pit in what is held, away from what is not.
+  land.heights(3, 30) -= 100;
+  EXPECT_GT(cutOutlets(land.heights, land.held, {.outlets = land.outlets}).left, 0);
+  EXPECT_GT(floodedBeyond(land.heights, land.outlets), 0u);
 }
 
 TEST(CutOutlets, ATorusDrainsToItsLowestSample) {
