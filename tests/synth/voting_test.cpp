@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "maps/height_map_file.h"
 #include "sdf/height_map.h"
@@ -43,6 +44,17 @@ TEST(Voting, AnyCompletenessAboveZeroIsAccepted) {
       ASSERT_EQ(there < 0, result.field.values.values()[s] < 0);
     }
   }
+}
+
+TEST(Voting, StaysAtAStartThatIsTheExample) {
+  const DistanceField example = balls({24, 20, 20}, 4, 1);
+  VotingOptions options = sized(example.size());
+  options.levels = 1;
+  options.start = Array3D<Vec3i>(example.size());
+  forEachCell(example.size(), [&](const Vec3i& p) { options.start[p] = p; });
+  const SynthesisResult result = synthesizeByVoting(example, options);
+  EXPECT_EQ(result.field.values, example.values);
+  forEachCell(example.size(), [&](const Vec3i& p) { ASSERT_EQ(result.origins[p].cell(), p); });
 }
 
 TEST(Voting, RefusesOptionsOutOfRange) {

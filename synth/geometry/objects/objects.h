@@ -18,10 +18,9 @@ bool isFreeStanding(const DistanceField& example);
 
 /// What becomes of an object along an axis.
 enum class Growth {
-  Varied,    ///< it stays as long, its parts longer and shorter
-  Fitted,    ///< it is extended or shortened in its own structure
-  Repeated,  ///< it does not dock onto itself: variations of it are placed side by side
-  Padded,    ///< the same, but upward, where nothing can be placed: there is air above it
+  Varied,  ///< it stays as long, its parts longer and shorter
+  Fitted,  ///< it is extended or shortened in its own structure
+  Grown,   ///< it does not dock onto itself: it grows by what is made of its parts (`growObject`)
 };
 
 struct ObjectOptions {
