@@ -35,6 +35,8 @@ constexpr std::int64_t kMostSamples = 1 << 20;
 constexpr double kFoot = 0.12;
 /// An object is extended where the joints cost no more than this on the mean.
 constexpr double kDocks = 0.15;
+/// The same beside what is kept, where voting would leave a groove.
+constexpr double kDocksKept = 0.25;
 /// How far parts are moved at first, of the object's length, and what it costs that they are not
 /// (`variedPath`); by how much more each time, how often, and how many ways are tried each time.
 constexpr double kMotion = 0.03, kPull = 80, kFarther = 1.2, kHarder = 1.6;
@@ -178,7 +180,7 @@ class Objects {
   /// Whether the joints of a path cost little enough.
   bool docks(int axis) const {
     const SlicePath path = fitted(axis);
-    return !path.source.empty() && path.meanCost <= kDocks;
+    return !path.source.empty() && path.meanCost <= (options_.kept ? kDocksKept : kDocks);
   }
 
   /// Whether an object that stands on one foot would stand on several.
