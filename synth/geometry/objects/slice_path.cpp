@@ -257,9 +257,14 @@ SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw
 
 std::vector<double> stretchedPath(const SliceDocking& docking, int length, std::uint64_t draw) {
   const int n = docking.slices(), begin = docking.solidBegin(), end = docking.solidEnd();
-  const ResultSlices result(docking, length);
+  const int count = end - begin;
   std::vector<double> path(static_cast<std::size_t>(length));
-  const int count = std::max(1, end - begin);
+  if (count < 1) {
+    for (int i = 0; i < length; ++i)
+      path[static_cast<std::size_t>(i)] = std::clamp((i + 0.5) * n / length - 0.5, 0.0, n - 1.0);
+    return path;
+  }
+  const ResultSlices result(docking, length);
   // How much longer each slice becomes: least squares with one sum.
   const std::vector<double> motion = smoothMotion(count, draw);
   std::vector<double> longer(static_cast<std::size_t>(count));
@@ -270,7 +275,7 @@ std::vector<double> stretchedPath(const SliceDocking& docking, int length, std::
     sum += longer[at];
   }
   for (double& l : longer) l *= (result.made - count) / sum;
-  // From where slices of the example are in the result to where those of the result are in it.
+  // Where each slice of the result lies among those of the example, laid out one after another.
   int slice = 0;
   double at = 0;  // of the slice's beginning in the result
   for (int i = 0; i < length; ++i) {
