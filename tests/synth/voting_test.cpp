@@ -83,6 +83,14 @@ TEST(Voting, RefusesOptionsOutOfRange) {
   EXPECT_TRUE(refused([&](VotingOptions& o) { o.truncation = nan; }, "truncation"));
   EXPECT_TRUE(refused([](VotingOptions& o) { o.completeness = 0; }, "completeness"));
   EXPECT_TRUE(refused([&](VotingOptions& o) { o.completeness = nan; }, "completeness"));
+  // A start is for the coarsest level, whose number has to be said.
+  EXPECT_TRUE(refused([](VotingOptions& o) { o.start = Array3D<Vec3i>({16, 16, 16}); }, "start"));
+  EXPECT_TRUE(refused(
+      [](VotingOptions& o) {
+        o.start = Array3D<Vec3i>({16, 16, 16});
+        o.levels = 2;
+      },
+      "start"));
   EXPECT_THROW(synthesizeByVoting(DistanceField{}, sized({8, 8, 8})), InputError);
 }
 
