@@ -44,9 +44,6 @@ void addDoubts(std::span<const Example> examples, const Request& request, Result
   const bool nearlySaid = std::ranges::any_of(result.warnings, [](const std::string& warning) {
     return warning.starts_with("the result is nearly the example");
   });
-  const bool repeated = std::ranges::any_of(result.warnings, [](const std::string& warning) {
-    return warning.find("placed side by side") != std::string::npos;
-  });
   // Of an object that is made longer, what is flat along it becomes more of the surface.
   const bool extended = examples.front().field().size() != result.field().size() &&
                         std::ranges::any_of(result.statistics, [](const auto& statistic) {
@@ -55,8 +52,8 @@ void addDoubts(std::span<const Example> examples, const Request& request, Result
   for (const Doubt doubt : doubtsOf(signs)) {
     if (doubt == Doubt::Sliced && extended) continue;
     if (doubt == Doubt::Moved && nearlySaid) continue;
-    // Copies that were asked for, or that the engine announces itself.
-    if (doubt == Doubt::Repeated && (examples.front().reading.scatter || repeated)) continue;
+    // Copies that were asked for.
+    if (doubt == Doubt::Repeated && examples.front().reading.scatter) continue;
     // What leaves a result that tiles at one side goes on at the other.
     const bool aroundTheBox = doubt == Doubt::Open || doubt == Doubt::Pieces;
     if (request.periodic.any() && aroundTheBox) continue;

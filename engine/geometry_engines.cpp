@@ -356,19 +356,10 @@ class GeometryEngine final : public FieldEngine {
       if (along(growth).any()) text += "; " + what + " along " + readableAxes(along(growth));
     };
     say(Growth::Fitted, "extended in its own structure");
-    say(Growth::Repeated, "repeated");
+    say(Growth::Grown, "grown of its own parts");
     if (same) text += "; varied, with " + std::to_string(made.parts) + " of its parts exchanged";
     result.notes.emplace_back("object", text);
     result.statistics.emplace_back("parts_exchanged", static_cast<std::int64_t>(made.parts));
-    if (along(Growth::Repeated).any())
-      result.warnings.push_back(
-          "the object has no part along " + readableAxes(along(Growth::Repeated)) +
-          " that could be repeated within it, so variations of it are placed side by side; `scale` "
-          "1 along these axes gives a single one");
-    if (along(Growth::Padded).any())
-      result.warnings.push_back(
-          "the object has no part that could be repeated to make it higher, so there is air above "
-          "it; give `scale` 1 along z");
     if (same && made.distance < kVaried)
       result.warnings.push_back("the result is nearly the example (" +
                                 std::to_string(static_cast<int>(std::lround(100 * made.distance))) +

@@ -13,6 +13,7 @@
 
 #include "core/cells.h"
 #include "synth/geometry/objects/objects.h"
+#include "synth/geometry/objects/slice_path.h"
 #include "synth/geometry/voting/voting.h"
 #include "tests/synth/fields.h"
 
@@ -166,6 +167,65 @@ TEST(KeptPlaces, AWallGoesOnAsOneWallWhicheverPartOfItIsKept) {
   }
 }
 
+/// A wall with a hole that becomes higher from one end to the other: no slice is like the next.
+DistanceField brokenWall() {
+  return sampled({64, 20, 32}, [](const Vec3d& p) {
+    const double hole = std::min({0.1 * (p.x - 6) - std::abs(p.z - 15), p.x - 7, 56 - p.x});
+    return std::max(box(p, {4, 6, 3}, {59, 13, 28}), hole);
+  });
+}
+
+TEST(KeptPlaces, AWallThatIsKeptToTheMiddleOfAHoleIsOneWall) {
+  const DistanceField example = brokenWall();
+  // Beside the low half there is no joint as good as objects are extended by (0.15).
+  const std::vector<SliceRange> half{{0, 33}};
+  const double cost = fittedPath(SliceDocking(example, 0), 128, 0, half).meanCost;
+  EXPECT_GT(cost, 0.15);
+  EXPECT_LT(cost, 0.25);
+  for (const bool low : {true, false}) {
+    const ObjectResult result =
+        longer(example, 0, [&](const Vec3i& p) { return (p.x < 33) == low; });
+    const DistanceField& made = result.made.field;
+    ASSERT_EQ(made.size().x, 128) << low;
+    // Above the hole and below it the wall goes on as thick as it is (7), to a step of a sample,
+    // without a groove.
+    for (const int z : {5, 26}) {
+      for (int x = 10; x < 118; ++x) {
+        int thick = 0;
+        for (int y = 0; y < 20; ++y) thick += made.values(x, y, z) < 0;
+        ASSERT_GE(thick, 6) << x << " " << z;
+      }
+    }
+    forEachCell(example.size(), [&](const Vec3i& p) {
+      if ((p.x < 33) != low || p.x < 2 || p.x >= 62) return;
+      ASSERT_EQ(made.values[p + result.keptOffset], example.values[p]);
+    });
+  }
+}
+
+TEST(KeptPlaces, AWallGrowsBetweenItsPlinthAndItsCoping) {
+  const DistanceField example = sampled({48, 20, 64}, [](const Vec3d& p) {
+    double d = box(p, {4, 7, 4}, {43, 12, 58});
+    d = std::max(d, 0.8 - std::abs(std::fmod(p.z, 8.0) - 4));  // courses
+    d = std::min(d, box(p, {4, 8, 4}, {43, 11, 58}));
+    d = std::min(d, box(p, {4, 4, 4}, {43, 15, 9}));
+    return std::min(d, box(p, {4, 5, 54}, {43, 14, 59}));
+  });
+  const Where parts[] = {[](const Vec3i& p) { return p.z < 32; },
+                         [](const Vec3i& p) { return p.z >= 32; }};
+  for (const Where& part : parts) {
+    const ObjectResult result = longer(example, 2, part);
+    const DistanceField& made = result.made.field;
+    ASSERT_EQ(made.size().z, 128);
+    EXPECT_EQ(runs(made, 2, 1), 1);
+    EXPECT_EQ(runs(made, 2, 300), 2);  // plinth and coping, each once
+    forEachCell(example.size(), [&](const Vec3i& p) {
+      if (!part(p) || p.z < 2 || p.z >= 62) return;
+      ASSERT_EQ(made.values[p + result.keptOffset], example.values[p]);
+    });
+  }
+}
+
 TEST(KeptPlaces, AColumnGrowsBetweenItsBaseAndItsCap) {
   const DistanceField example = column();
   const Where parts[] = {[](const Vec3i& p) { return p.z < 32; },
@@ -187,8 +247,8 @@ TEST(KeptPlaces, WhatDoesNotDockIsLeftToVoting) {
 TEST(KeptPlaces, VotingGoesOnFromEitherSideAlike) {
   // Ground that is cut at its sides, kept at one of them: it stays to the bit at its own end.
   const DistanceField example = ground({40, 40, 28}, 6);
-  const Vec3i n = example.size(), size{72, 40, 28};
-  const auto made = [&](const Where& part) {
+  const Vec3i n = example.size();
+  const auto made = [&](const Where& part, const Vec3i& size = {72, 40, 28}) {
     const KeptPlaces places = placeKept(example, maskOf(n, part), size, {});
     VotingOptions options;
     options.size = size;
@@ -207,6 +267,8 @@ TEST(KeptPlaces, VotingGoesOnFromEitherSideAlike) {
   // All else is made of what is kept: of narrower parts there is less to choose from.
   EXPECT_LT(made([](const Vec3i& p) { return p.x < 20; }), 0.02);
   EXPECT_LT(made([](const Vec3i& p) { return p.x >= 20; }), 0.02);
+  EXPECT_LT(made([](const Vec3i& p) { return p.y < 20; }, {40, 72, 28}), 0.02);
+  EXPECT_LT(made([](const Vec3i& p) { return p.y >= 20; }, {40, 72, 28}), 0.02);
   EXPECT_LT(made([](const Vec3i& p) { return p.x < 12 || p.x >= 28; }), 0.05);
   EXPECT_LT(made([](const Vec3i& p) { return p.x >= 14 && p.x < 26; }), 0.05);
 }

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <tuple>
+#include <vector>
 
 #include "core/cells.h"
 #include "core/error.h"
@@ -71,6 +72,20 @@ DistanceField boulder() {
     const Vec3d q{(p.x - 19.5) / 14, (p.y - 17.5) / 13, (p.z - 17.5) / 12};
     const double bumps = 0.1 * std::sin(5 * q.x + 2 * q.y) + 0.1 * std::sin(4 * q.y - 3 * q.z);
     return 12 * (std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z) - 1 - bumps);
+  });
+}
+
+/// A trunk with four branches, a ball at the end of each.
+DistanceField tree() {
+  return sampled({36, 34, 40}, [](const Vec3d& p) {
+    double d = std::max(std::hypot(p.x - 17.5, p.y - 16.5) - 3, std::abs(p.z - 13) - 10);
+    for (int n = 0; n < 4; ++n) {
+      const Vec3d way{n < 2 ? (n == 0 ? 9.0 : -9.0) : 0, n < 2 ? 0 : (n == 2 ? 8.0 : -8.0), 9};
+      const Vec3d q = p - Vec3d{17.5, 16.5, 20};
+      const double t = std::clamp(dot(q, way) / dot(way, way), 0.0, 1.0);
+      d = std::min({d, length(q - way * t) - 2, length(q - way) - 4});
+    }
+    return d;
   });
 }
 
@@ -181,6 +196,36 @@ TEST(SlicePath, LongerPathsRepeatNothingMoreThanTheyMust) {
   EXPECT_LT(shorter.worstCost, 0.2);
 }
 
+TEST(SlicePath, StretchesWhatIsLikeAPrism) {
+  // Two balls on a rod along x.
+  const DistanceField dumbbell = sampled({80, 32, 32}, [](const Vec3d& p) {
+    const double r = std::hypot(p.y - 15.5, p.z - 15.5);
+    double d = std::max(r - 4, std::abs(p.x - 39.5) - 22);
+    for (const double x : {17.5, 61.5}) d = std::min(d, std::hypot(p.x - x, r) - 11);
+    return d;
+  });
+  const SliceDocking docking(dumbbell, 0);
+  EXPECT_LT(docking.change(40), 0.05);
+  EXPECT_GT(docking.change(10), 0.4);
+  for (std::uint64_t draw = 0; draw < 3; ++draw) {
+    const std::vector<double> path = stretchedPath(docking, 160, draw);
+    ASSERT_EQ(path.size(), 160u);
+    std::array<int, 3> part{};  // slices of the result in the first ball, between, in the second
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      EXPECT_GE(path[i], path[i - 1]);
+      EXPECT_LE(path[i], path[i - 1] + 1 + 1e-9);
+      if (path[i] >= docking.solidBegin() && path[i] < docking.solidEnd())
+        ++part[path[i] < 28 ? 0 : path[i] < 51 ? 1 : 2];
+    }
+    EXPECT_EQ(path.front(), 0);
+    EXPECT_EQ(path.back(), 79);
+    // A slice of the rod (23 of them) is stretched more than one of a ball (21).
+    EXPECT_GT((part[1] - 23) / 23.0, 1.05 * (part[0] - 21) / 21.0);
+    EXPECT_GT((part[1] - 23) / 23.0, 1.05 * (part[2] - 21) / 21.0);
+  }
+  EXPECT_NE(stretchedPath(docking, 160, 0), stretchedPath(docking, 160, 1));
+}
+
 TEST(PartExchange, ChangesPartsAndLeavesTheFoot) {
   const DistanceField example = village();
   const PartExchange found = exchangeParts(example, {.seed = 1, .novelty = 0.15});
@@ -234,7 +279,7 @@ TEST(Objects, OfTheExamplesSizeAreVariationsOfIt) {
   }
 }
 
-TEST(Objects, AreExtendedWhereTheyDockAndRepeatedWhereNot) {
+TEST(Objects, AreExtendedWhereTheyDockAndGrowWhereNot) {
   const DistanceField columns = colonnade();
   const ObjectResult longer = synthesizeObject(columns, {.size = {128, 24, 32}, .seed = 2});
   EXPECT_EQ(longer.growth[0], Growth::Fitted);
@@ -242,16 +287,35 @@ TEST(Objects, AreExtendedWhereTheyDockAndRepeatedWhereNot) {
   EXPECT_EQ(pieces(longer.made.field), 1);
   EXPECT_NEAR(solid(longer.made.field) / solid(columns), 2, 0.14);
 
+  // A stone has no part that could be repeated: it becomes one larger stone.
   const DistanceField stone = boulder();
-  const ObjectResult two = synthesizeObject(stone, {.size = {80, 36, 36}});
-  EXPECT_EQ(two.growth[0], Growth::Repeated);
-  EXPECT_EQ(pieces(two.made.field), 2);
-  EXPECT_NEAR(solid(two.made.field) / solid(stone), 2, 0.14);
-  // Nothing stands on what stands alone.
-  const ObjectResult high = synthesizeObject(stone, {.size = {40, 36, 72}});
-  EXPECT_EQ(high.growth[2], Growth::Padded);
+  const ObjectResult two = synthesizeObject(stone, {.size = {60, 36, 36}});
+  EXPECT_EQ(two.growth[0], Growth::Grown);
+  EXPECT_EQ(two.growth[1], Growth::Varied);
+  EXPECT_EQ(pieces(two.made.field), 1);
+  EXPECT_NEAR(solid(two.made.field) / solid(stone), 1.5, 0.25);
+  const CellBox stretched = extent(two.made.field), before = extent(stone);
+  EXPECT_NEAR(stretched.size().x, 1.5 * before.size().x, 4);
+  const ObjectResult high = synthesizeObject(stone, {.size = {40, 36, 54}});
+  EXPECT_EQ(high.growth[2], Growth::Grown);
   EXPECT_EQ(pieces(high.made.field), 1);
-  EXPECT_NEAR(extent(high.made.field).begin.z, extent(stone).begin.z, 2);
+  EXPECT_NEAR(extent(high.made.field).size().z, 1.5 * before.size().z, 4);
+}
+
+TEST(Objects, GrowOnOneTrunk) {
+  const DistanceField example = tree();
+  const ObjectResult made = synthesizeObject(example, {.size = {54, 51, 40}, .seed = 1});
+  EXPECT_EQ(made.growth[0], Growth::Grown);
+  EXPECT_EQ(made.growth[1], Growth::Grown);
+  const DistanceField& field = made.made.field;
+  EXPECT_EQ(pieces(field), 1);
+  // At half the height of the trunk there is one.
+  DistanceField slice = constant({54, 51, 1}, 1);
+  forEachCell(slice.size(), [&](const Vec3i& p) { slice.values[p] = field.values(p.x, p.y, 12); });
+  EXPECT_EQ(pieces(slice), 1);
+  EXPECT_LT(extent(slice).size().x, 20);
+  // The crown is wider, as the result is.
+  EXPECT_GT(extent(field).size().x, 1.35 * extent(example).size().x);
 }
 
 TEST(Objects, AreTheSameAtAnyNumberOfThreads) {
@@ -262,18 +326,27 @@ TEST(Objects, AreTheSameAtAnyNumberOfThreads) {
     EXPECT_EQ(one.made.field.values, eight.made.field.values);
     EXPECT_EQ(one.made.origins, eight.made.origins);
   }
+  ObjectResult one, eight;
+  const Vec3i size{50, 36, 36};
+  withThreads(1, [&] { one = synthesizeObject(boulder(), {.size = size, .seed = 3}); });
+  withThreads(8, [&] { eight = synthesizeObject(boulder(), {.size = size, .seed = 3}); });
+  EXPECT_EQ(one.growth[0], Growth::Grown);
+  EXPECT_EQ(one.made.field.values, eight.made.field.values);
+  EXPECT_EQ(one.made.origins, eight.made.origins);
 }
 
 TEST(Objects, HaveTheSignOfTheirOrigins) {
-  const DistanceField example = village();
-  const SynthesisResult made = synthesizeObject(example, {.size = {100, 40, 28}}).made;
-  std::int64_t wrong = 0;
-  for (std::size_t s = 0; s < made.origins.count(); ++s) {
-    const Vec3i cell = made.origins.values()[s].cell();
-    ASSERT_TRUE(example.values.contains(cell));
-    wrong += (made.field.values.values()[s] < 0) != (example.values[cell] < 0);
+  for (const DistanceField& example : {village(), boulder()}) {
+    const Vec3i size = example.size() + Vec3i{12, 0, 0};
+    const SynthesisResult made = synthesizeObject(example, {.size = size}).made;
+    std::int64_t wrong = 0;
+    for (std::size_t s = 0; s < made.origins.count(); ++s) {
+      const Vec3i cell = made.origins.values()[s].cell();
+      ASSERT_TRUE(example.values.contains(cell));
+      wrong += (made.field.values.values()[s] < 0) != (example.values[cell] < 0);
+    }
+    EXPECT_EQ(wrong, 0);
   }
-  EXPECT_EQ(wrong, 0);
 }
 
 TEST(Objects, RefuseSizesOutOfRangeAndStopWhenAsked) {
@@ -284,6 +357,9 @@ TEST(Objects, RefuseSizesOutOfRangeAndStopWhenAsked) {
     EXPECT_THROW(synthesizeObject(village(), {.size = {72, 40, 28}}, cancel.progress()), Cancelled);
     EXPECT_TRUE(cancel.happened());
   }
+  CancelAfter cancel(1, "voting");
+  EXPECT_THROW(synthesizeObject(boulder(), {.size = {50, 36, 36}}, cancel.progress()), Cancelled);
+  EXPECT_TRUE(cancel.happened());
 }
 
 TEST(Objects, MayBeSmallerThanTheExampleOrThin) {
@@ -296,6 +372,8 @@ TEST(Objects, MayBeSmallerThanTheExampleOrThin) {
   }
   EXPECT_EQ(synthesizeObject(plate, {.size = {40, 40, 3}}).made.field.size(), plate.size());
   EXPECT_EQ(synthesizeObject(plate, {.size = {80, 80, 3}}).made.field.size().x, 80);
+  const DistanceField air = constant({16, 16, 16}, 1);
+  EXPECT_EQ(solid(synthesizeObject(air, {.size = {24, 16, 16}}).made.field), 0);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "core/cells.h"
 #include "core/error.h"
 #include "maps/height_map_file.h"
 #include "sdf/height_map.h"
@@ -45,6 +46,17 @@ TEST(Voting, AnyCompletenessAboveZeroIsAccepted) {
   }
 }
 
+TEST(Voting, StaysAtAStartThatIsTheExample) {
+  const DistanceField example = balls({24, 20, 20}, 4, 1);
+  VotingOptions options = sized(example.size());
+  options.levels = 1;
+  options.start = Array3D<Vec3i>(example.size());
+  forEachCell(example.size(), [&](const Vec3i& p) { options.start[p] = p; });
+  const SynthesisResult result = synthesizeByVoting(example, options);
+  EXPECT_EQ(result.field.values, example.values);
+  forEachCell(example.size(), [&](const Vec3i& p) { ASSERT_EQ(result.origins[p].cell(), p); });
+}
+
 TEST(Voting, RefusesOptionsOutOfRange) {
   const DistanceField example = balls({16, 16, 16}, 4, 1);
   const auto refused = [&](const auto& change, const std::string& word) {
@@ -71,6 +83,14 @@ TEST(Voting, RefusesOptionsOutOfRange) {
   EXPECT_TRUE(refused([&](VotingOptions& o) { o.truncation = nan; }, "truncation"));
   EXPECT_TRUE(refused([](VotingOptions& o) { o.completeness = 0; }, "completeness"));
   EXPECT_TRUE(refused([&](VotingOptions& o) { o.completeness = nan; }, "completeness"));
+  // A start is for the coarsest level, whose number has to be said.
+  EXPECT_TRUE(refused([](VotingOptions& o) { o.start = Array3D<Vec3i>({16, 16, 16}); }, "start"));
+  EXPECT_TRUE(refused(
+      [](VotingOptions& o) {
+        o.start = Array3D<Vec3i>({16, 16, 16});
+        o.levels = 2;
+      },
+      "start"));
   EXPECT_THROW(synthesizeByVoting(DistanceField{}, sized({8, 8, 8})), InputError);
 }
 

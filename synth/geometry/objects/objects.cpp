@@ -14,11 +14,13 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "sdf/resample.h"
+#include "synth/geometry/objects/growth.h"
 #include "synth/geometry/objects/part_exchange.h"
 #include "synth/geometry/objects/slice_path.h"
 #include "synth/geometry/pyramid/pyramid.h"
 #include "synth/geometry/seams/assembly.h"
 #include "synth/geometry/seams/level_seams.h"
+#include "synth/geometry/seams/regions.h"
 
 namespace exemplar {
 namespace {
@@ -29,8 +31,12 @@ namespace {
 constexpr int kMostSlices = 128;
 /// Parts are exchanged on a grid of at most so many samples.
 constexpr std::int64_t kMostSamples = 1 << 20;
+/// How much of the object's height its foot is.
+constexpr double kFoot = 0.12;
 /// An object is extended where the joints cost no more than this on the mean.
 constexpr double kDocks = 0.15;
+/// The same beside what is kept, where voting would leave a groove.
+constexpr double kDocksKept = 0.25;
 /// How far parts are moved at first, of the object's length, and what it costs that they are not
 /// (`variedPath`); by how much more each time, how often, and how many ways are tried each time.
 constexpr double kMotion = 0.03, kPull = 80, kFarther = 1.2, kHarder = 1.6;
@@ -65,6 +71,20 @@ struct Axis {
     }
     return path;
   }
+  /// The same of places between slices.
+  std::vector<double> fine(const std::vector<double>& coarse, int made) const {
+    std::vector<double> path(static_cast<std::size_t>(made));
+    const int last = static_cast<int>(coarse.size()) - 1;
+    for (int i = 0; i < made; ++i) {
+      const double at = std::clamp<double>((i + 0.5) / shrink - 0.5, 0, last);
+      const int before = std::min(static_cast<int>(at), std::max(0, last - 1));
+      const double place =
+          std::lerp(coarse[static_cast<std::size_t>(before)],
+                    coarse[static_cast<std::size_t>(std::min(before + 1, last))], at - before);
+      path[static_cast<std::size_t>(i)] = (place + 0.5) * shrink - 0.5;
+    }
+    return path;
+  }
 };
 
 class Objects {
@@ -80,6 +100,7 @@ class Objects {
     findDocking(progress.part(0, kPathsDone / 4));
     chooseGrowth();
     if (options_.kept && !isFitted()) return std::move(result_);
+    if (isGrown()) return grown(progress.part(kPathsDone / 4, 1));
     exchange(progress.part(kPathsDone / 4, kPathsDone / 2));
     layOut(progress.part(kPathsDone / 2, kPathsDone));
     Array3D<float> target = shown();
@@ -100,6 +121,39 @@ class Objects {
     pyramid.size = options.size;
     pyramid.truncation = options.truncation;
     return pyramid;
+  }
+
+  bool isGrown() const {
+    return std::ranges::find(result_.growth, Growth::Grown) != result_.growth.end();
+  }
+
+  /// The object grown along axes along which it does not dock onto itself.
+  ObjectResult grown(const Progress& progress) {
+    GrowthOptions growing;
+    growing.seed = options_.seed;
+    growing.truncation = options_.truncation;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (result_.growth[a] == Growth::Grown) {
+        const Axis& along = axes_[a];
+        growing.places[a] =
+            along.fine(stretchedPath(along.docking, coarse(axis), draw(axis)), options_.size[axis]);
+      } else {
+        const std::vector<int> whole = path(axis);
+        growing.places[a].assign(whole.begin(), whole.end());
+      }
+    }
+    result_.made = growObject(parts_[0].field, growing, progress);
+    return std::move(result_);
+  }
+
+  /// Slices of the docking's grid of a result.
+  int coarse(int axis) const {
+    const int shrink = axes_[static_cast<std::size_t>(axis)].shrink;
+    return (options_.size[axis] + shrink - 1) / shrink;
+  }
+  std::uint64_t draw(int axis) const {
+    return Random(options_.seed, stream::kSlices).bits(static_cast<std::uint64_t>(axis));
   }
 
   bool same() const { return options_.size == example_; }
@@ -125,14 +179,43 @@ class Objects {
   }
   /// Whether the joints of a path cost little enough.
   bool docks(int axis) const {
-    const SlicePath path = fitted(axis, options_.size[axis]);
-    return !path.source.empty() && path.meanCost <= kDocks;
+    const SlicePath path = fitted(axis);
+    return !path.source.empty() && path.meanCost <= (options_.kept ? kDocksKept : kDocks);
   }
 
-  /// Exchanges parts of each copy, on a grid that is small enough.
+  /// Whether an object that stands on one foot would stand on several.
+  bool splitsFoot(int axis) const {
+    if (axis == 2) return false;
+    const Array3D<float>& values = parts_[0].field.values;
+    const SliceDocking& upward = axes_[2].docking;
+    const int shrink = axes_[2].shrink, bottom = upward.solidBegin() * shrink;
+    const int height = (upward.solidEnd() - upward.solidBegin()) * shrink;
+    const int top =
+        std::min(example_.z, bottom + 1 + static_cast<int>(std::lround(height * kFoot)));
+    Array3D<std::uint8_t> foot({example_.x, example_.y, 1});
+    forEachCell({{0, 0, bottom}, {example_.x, example_.y, top}}, [&](const Vec3i& p) {
+      if (values[p] < 0) foot(p.x, p.y, 0) = 1;
+    });
+    const auto pieces = [](const Array3D<std::uint8_t>& mask) {
+      return countPieces(mask.size(), [&](const Vec3i& p) { return mask[p] != 0; });
+    };
+    if (pieces(foot) != 1) return false;
+    const std::vector<int> along = fitted(axis).source;
+    Vec3i size = foot.size();
+    size[axis] = static_cast<int>(along.size());
+    Array3D<std::uint8_t> longer(size);
+    forEachCell(size, [&](const Vec3i& p) {
+      Vec3i from = p;
+      from[axis] = along[static_cast<std::size_t>(p[axis])];
+      longer[p] = foot[from];
+    });
+    return pieces(longer) > 1;
+  }
+
+  /// Exchanges parts, on a grid that is small enough.
   void exchange(const Progress& progress) {
     if (options_.kept) {
-      exchanges_.push_back({Array3D<Vec3i>({1, 1, 1}), Array3D<std::uint8_t>({1, 1, 1})});
+      exchange_ = {Array3D<Vec3i>({1, 1, 1}), Array3D<std::uint8_t>({1, 1, 1})};
       return;
     }
     int shrink = 1;
@@ -140,25 +223,13 @@ class Objects {
       shrink *= 2;
     const DistanceField coarse =
         shrink == 1 ? parts_[0].field : blockAverage(parts_[0].field, shrink);
-    const int count = copies(0) * copies(1) * copies(2);
-    for (int copy = 0; copy < count; ++copy) {
-      const auto done = [&](int n) { return static_cast<double>(n) / count; };
-      PartExchangeOptions exchanging;
-      exchanging.novelty = options_.novelty;
-      exchanging.seed =
-          Random(options_.seed, stream::kParts).bits(static_cast<std::uint64_t>(copy));
-      exchanges_.push_back(
-          exchangeParts(coarse, exchanging, progress.part(done(copy), done(copy + 1))));
-    }
+    PartExchangeOptions exchanging;
+    exchanging.novelty = options_.novelty;
+    exchanging.seed = Random(options_.seed, stream::kParts).bits(0);
+    exchange_ = exchangeParts(coarse, exchanging, progress);
     exchangeShrink_ = shrink;
-    result_.parts = exchanges_.front().parts;
-    result_.partDistance = exchanges_.front().distance;
-  }
-
-  /// How many copies are placed side by side along an axis.
-  int copies(int axis) const {
-    if (result_.growth[static_cast<std::size_t>(axis)] != Growth::Repeated) return 1;
-    return std::max(1, options_.size[axis] / example_[axis]);
+    result_.parts = exchange_.parts;
+    result_.partDistance = exchange_.distance;
   }
 
   void chooseGrowth() {
@@ -167,47 +238,41 @@ class Objects {
       const int length = options_.size[axis];
       growth = Growth::Varied;
       if (length == example_[axis]) continue;
-      if (docks(axis) || length < example_[axis]) {
-        growth = Growth::Fitted;
-      } else {
-        growth = axis == 2 ? Growth::Padded : Growth::Repeated;
-      }
+      const bool fits = docks(axis) && (options_.kept || !splitsFoot(axis));
+      growth = fits || length < example_[axis] ? Growth::Fitted : Growth::Grown;
     }
   }
 
-  SlicePath fitted(int axis, int length) const {
+  SlicePath fitted(int axis) const {
     const Axis& along = axes_[static_cast<std::size_t>(axis)];
-    const std::uint64_t draw =
-        Random(options_.seed, stream::kSlices).bits(static_cast<std::uint64_t>(axis));
-    const int made = (length + along.shrink - 1) / along.shrink;
     std::vector<SliceRange> held;
     if (options_.kept) held = keptRanges(*options_.kept, axis);
     for (SliceRange& range : held) {
       range.begin /= along.shrink;
       range.end = (range.end + along.shrink - 1) / along.shrink;
     }
-    return along.fine(fittedPath(along.docking, made, draw, held), length);
+    return along.fine(fittedPath(along.docking, coarse(axis), draw(axis), held),
+                      options_.size[axis]);
   }
 
-  SlicePath varied(int axis, int copy) const {
+  SlicePath varied(int axis) const {
     const Axis& along = axes_[static_cast<std::size_t>(axis)];
-    const std::uint64_t draw = Random(options_.seed, stream::kSlices)
-                                   .bits(static_cast<std::uint64_t>(axis + 3 * (copy + 1)),
-                                         static_cast<std::uint32_t>(draw_));
+    const std::uint64_t draw =
+        Random(options_.seed, stream::kSlices)
+            .bits(static_cast<std::uint64_t>(axis + 3), static_cast<std::uint32_t>(draw_));
     const double solid = along.docking.solidEnd() - along.docking.solidBegin();
     return along.fine(variedPath(along.docking, motion_ * solid, pull_, draw), along.length);
   }
 
-  /// Which sample of the example each sample along an axis is, of one copy.
-  std::vector<int> path(int axis, int copy) {
+  /// Which sample of the example each sample along an axis is.
+  std::vector<int> path(int axis) {
     const Growth growth = result_.growth[static_cast<std::size_t>(axis)];
     if (options_.kept && growth != Growth::Fitted) {
       std::vector<int> unchanged(static_cast<std::size_t>(example_[axis]));
       std::iota(unchanged.begin(), unchanged.end(), 0);
       return unchanged;
     }
-    SlicePath found =
-        growth == Growth::Fitted ? fitted(axis, options_.size[axis]) : varied(axis, copy);
+    SlicePath found = growth == Growth::Fitted ? fitted(axis) : varied(axis);
     misfit_ += found.joints * found.meanCost;
     if (!found.source.empty()) return found.source;
     // Too short for a path: what is in the middle goes.
@@ -232,51 +297,29 @@ class Objects {
     }
   }
 
-  /// Lays each copy out.
+  /// Lays the object out.
   void lay(const Progress& progress) {
     sources_ = PyramidSources(level_.target.framed());
     fixed_ = Array3D<std::uint8_t>(sources_.size());
     const Vec3i before = level_.target.margin.before, first = level_.source.parts[0].begin;
-    const Vec3i tiles{copies(0), copies(1), copies(2)};
-    int copy = 0;
     misfit_ = 0;
-    forEachCell(tiles, [&](const Vec3i& tile) {
-      progress.check();
-      std::array<std::vector<int>, 3> paths;
-      CellBox box;
-      Vec3i shift;
+    progress.check();
+    std::array<std::vector<int>, 3> paths;
+    for (int axis = 0; axis < 3; ++axis) paths[static_cast<std::size_t>(axis)] = path(axis);
+    if (options_.kept) findKeptOffset(paths);
+    parallelForEachCell(CellBox{Vec3i{} - before, sources_.size() - before}, [&](const Vec3i& p) {
+      Vec3i from;
       for (int axis = 0; axis < 3; ++axis) {
-        paths[static_cast<std::size_t>(axis)] = path(axis, copy);
-        const int n = options_.size[axis], count = tiles[axis];
-        const int length = static_cast<int>(paths[static_cast<std::size_t>(axis)].size());
-        box.begin[axis] = tile[axis] * n / count;
-        box.end[axis] = (tile[axis] + 1) * n / count;
-        shift[axis] = axis == 2 ? 0 : (box.end[axis] - box.begin[axis] - length) / 2;
-        // What lies around the result belongs to the outer copies.
-        if (tile[axis] == 0) box.begin[axis] = -before[axis];
-        if (tile[axis] == count - 1) box.end[axis] = sources_.size()[axis] - before[axis];
+        const std::vector<int>& along = paths[static_cast<std::size_t>(axis)];
+        const int inside = std::clamp(p[axis], 0, static_cast<int>(along.size()) - 1);
+        from[axis] = along[static_cast<std::size_t>(inside)] + p[axis] - inside;
       }
-      if (options_.kept) findKeptOffset(paths);
-      parallelForEachCell(box, [&](const Vec3i& p) {
-        Vec3i from;
-        for (int axis = 0; axis < 3; ++axis) {
-          const std::vector<int>& along = paths[static_cast<std::size_t>(axis)];
-          const int length = static_cast<int>(along.size());
-          int at = p[axis];
-          if (copies(axis) > 1 || result_.growth[static_cast<std::size_t>(axis)] == Growth::Padded)
-            at -= (axis == 2 ? 0 : box.begin[axis] < 0 ? 0 : box.begin[axis]) + shift[axis];
-          const int inside = std::clamp(at, 0, length - 1);
-          from[axis] = along[static_cast<std::size_t>(inside)] + at - inside;
-        }
-        const PartExchange& parts = exchanges_[static_cast<std::size_t>(copy)];
-        const Vec3i cell = parts.offsets.clamped(
-            {from.x / exchangeShrink_, from.y / exchangeShrink_, from.z / exchangeShrink_});
-        const Vec3i origin = from + parts.offsets[cell] * exchangeShrink_ + first;
-        sources_[p + before] = level_.source.values.clamped(origin);
-        fixed_[p + before] = options_.kept ? options_.kept->contains(from) && (*options_.kept)[from]
-                                           : parts.changed[cell];
-      });
-      ++copy;
+      const Vec3i cell = exchange_.offsets.clamped(
+          {from.x / exchangeShrink_, from.y / exchangeShrink_, from.z / exchangeShrink_});
+      const Vec3i origin = from + exchange_.offsets[cell] * exchangeShrink_ + first;
+      sources_[p + before] = level_.source.values.clamped(origin);
+      fixed_[p + before] = options_.kept ? options_.kept->contains(from) && (*options_.kept)[from]
+                                         : exchange_.changed[cell];
     });
   }
 
@@ -367,7 +410,7 @@ class Objects {
   std::vector<SourcePart> parts_;
   PyramidLevel level_;
   std::vector<Axis> axes_;
-  std::vector<PartExchange> exchanges_;  ///< of each copy
+  PartExchange exchange_;
   int exchangeShrink_ = 1;
   double motion_ = kMotion, pull_ = kPull;
   int draw_ = 0;

@@ -18,10 +18,9 @@ bool isFreeStanding(const DistanceField& example);
 
 /// What becomes of an object along an axis.
 enum class Growth {
-  Varied,    ///< it stays as long, its parts longer and shorter
-  Fitted,    ///< it is extended or shortened in its own structure
-  Repeated,  ///< it does not dock onto itself: variations of it are placed side by side
-  Padded,    ///< the same, but upward, where nothing can be placed: there is air above it
+  Varied,  ///< it stays as long, its parts longer and shorter
+  Fitted,  ///< it is extended or shortened in its own structure
+  Grown,   ///< it does not dock onto itself: it grows by what is made of its parts (`growObject`)
 };
 
 struct ObjectOptions {
@@ -39,7 +38,7 @@ struct ObjectOptions {
 struct ObjectResult {
   SynthesisResult made;
   std::array<Growth, 3> growth{};  ///< along each axis
-  int parts = 0;                   ///< that were exchanged, of the first copy
+  int parts = 0;                   ///< that were exchanged
   double partDistance = 0;
   /// The distance (1 - IoU) to the example in place, of a result of its own size, before joints are
   /// cut; else 0.
@@ -53,14 +52,15 @@ struct ObjectResult {
 /// A result of its own size is a variation of it: along each axis, parts become longer and shorter
 /// where the object docks onto itself (`variedPath`), as far as it takes to be new. Along an axis
 /// along which the result is longer or shorter, the object is extended or shortened where it docks
-/// onto itself (`fittedPath`); where it does not, variations of it are placed side by side. Joints
-/// are then cut where both sides agree best, as everywhere (`assemble`).
+/// onto itself (`fittedPath`), and joints are cut where both sides agree best, as everywhere
+/// (`assemble`). Where it does not, or would stand on several feet instead of one, it grows into
+/// one larger object of its parts (`growObject`).
 ///
 /// Where something is kept and the example does not dock onto itself beside it along an axis along
 /// which the result is of another size, nothing is made, and `made.field` is empty.
 ///
-/// Memory about 120 bytes a sample of the result. The same bytes at any number of threads. Throws
-/// `InputError` for options out of range, `Cancelled`.
+/// Memory about 120 bytes a sample of the result, up to twice that where it grows. The same bytes
+/// at any number of threads. Throws `InputError` for options out of range, `Cancelled`.
 ObjectResult synthesizeObject(const DistanceField& example, const ObjectOptions& options,
                               const Progress& progress = {});
 

@@ -80,13 +80,7 @@ class Exchange {
   float at(const Vec3i& p) const { return example_.contains(p) ? example_[p] : kLimit; }
 
   static std::uint32_t piecesOf(const Array3D<float>& values) {
-    const Regions regions =
-        findRegions(values.size(), [&](const Vec3i& p) { return values[p] < 0; });
-    std::vector<std::uint8_t> solid(regions.count);
-    regions.forEachRun([&](const Regions::Run& run, const Vec3i& first) {
-      solid[run.region] = values[first] < 0;
-    });
-    return static_cast<std::uint32_t>(std::count(solid.begin(), solid.end(), 1));
+    return countPieces(values.size(), [&](const Vec3i& p) { return values[p] < 0; });
   }
 
   /// From a place of the surface to the one that looks most like it of some others, far enough off.

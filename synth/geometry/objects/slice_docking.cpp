@@ -18,6 +18,8 @@ namespace {
 constexpr int kColumns = 2048;
 /// Distances count up to here, voxels.
 constexpr float kLimit = 3;
+/// How much the surface changes is averaged over so many slices to either side.
+constexpr int kSmooth = 3;
 /// A column has the surface near a slice where that is within so many voxels of it.
 constexpr float kNear = 1.5F;
 
@@ -66,6 +68,24 @@ SliceDocking::SliceDocking(const DistanceField& example, int axis, const Progres
   double surface = 0;
   for (const float value : values) surface += std::abs(value) < kNear;
   surface /= std::max(1, solidEnd_ - solidBegin_);
+
+  changes_.assign(count, 1);
+  for (std::size_t s = 0; s < count; ++s) {
+    double sum = 0, near = 0;
+    for (int t = -kSmooth; t <= kSmooth; ++t) {
+      const int at = static_cast<int>(s) + t;
+      if (at < 1 || at + 1 >= slices_) continue;
+      const float* here = &values[static_cast<std::size_t>(at) * columns];
+      for (std::size_t c = 0; c < columns; ++c) {
+        if (std::abs(here[c]) >= kNear) continue;
+        const float* column = here + c;
+        const float slope = std::min(1.0F, std::abs(column[columns] - *(column - columns)) / 2);
+        sum += slope * slope;
+        near += 1;
+      }
+    }
+    if (near > 0) changes_[s] = sum / std::min(near, (2 * kSmooth + 1) * surface);
+  }
 
   costs_.assign(count * count, 0);
   parallelFor(0, count, 1, [&](std::size_t from, std::size_t to) {

@@ -36,6 +36,10 @@ class SliceDocking {
   int solidEnd() const { return solidEnd_; }
   /// How much of a slice is solid, as a share of the mean of those that hold anything solid.
   double section(int slice) const { return sections_[static_cast<std::size_t>(slice)]; }
+  /// How much the surface near a slice changes along the axis: the mean of the squared slope of the
+  /// distance, 0 where the surface is that of a prism to 1 where it faces along the axis, or where
+  /// there is none.
+  double change(int slice) const { return changes_[static_cast<std::size_t>(slice)]; }
   /// What it costs that `next` comes where `usual` would. Symmetric; 0 where they are one.
   float cost(int usual, int next) const {
     return costs_[static_cast<std::size_t>(usual) * static_cast<std::size_t>(slices_) +
@@ -44,7 +48,7 @@ class SliceDocking {
 
  private:
   int slices_ = 0, solidBegin_ = 0, solidEnd_ = 0;
-  std::vector<double> sections_;
+  std::vector<double> sections_, changes_;
   std::vector<float> costs_;
 };
 

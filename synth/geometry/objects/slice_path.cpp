@@ -31,6 +31,10 @@ constexpr int kRaises = 5;
 constexpr double kThinnest = 0.4;
 /// Joints of one seed are up to this much dearer than those of another.
 constexpr double kNoise = 0.8;
+/// What it costs to stretch a prism, beside 1 for what faces along the axis; by so much what
+/// stretches is dearer or cheaper at random.
+constexpr double kStiffness = 0.3;
+constexpr double kStretchNoise = 0.4;
 /// What is random: the modes of where parts move, and the price of joints.
 constexpr std::uint32_t kMode = 0, kPrice = 1;
 
@@ -77,6 +81,18 @@ std::vector<double> smoothMotion(int count, std::uint64_t draw) {
   for (double& m : motion) m /= std::max(1e-9, most);
   return motion;
 }
+
+/// Where a result of `length` slices is solid; the air at both ends has its share of them.
+struct ResultSlices {
+  int made, ahead;  ///< slices that are solid, and those before
+
+  ResultSlices(const SliceDocking& docking, int length) {
+    const int n = docking.slices(), begin = docking.solidBegin();
+    const int solid = docking.solidEnd() - begin;
+    made = static_cast<int>(std::lround(static_cast<double>(solid) * length / n));
+    ahead = n == solid ? 0 : (length - made) * begin / (n - solid);
+  }
+};
 
 }  // namespace
 
@@ -144,8 +160,8 @@ SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw
   const int n = docking.slices(), begin = docking.solidBegin(), end = docking.solidEnd();
   const int run = shortestRun(docking);
   const int solid = end - begin;
-  const int made = static_cast<int>(std::lround(static_cast<double>(solid) * length / n));
-  const int ahead = n == solid ? 0 : (length - made) * begin / (n - solid);  // of air
+  const ResultSlices result(docking, length);
+  const int made = result.made, ahead = result.ahead;
   SlicePath best;
   if (solid < 1 || made < 2 * run) return best;
   const Random random(draw, stream::kSlices);
@@ -237,6 +253,45 @@ SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw
     best = std::move(path);
   }
   return best;
+}
+
+std::vector<double> stretchedPath(const SliceDocking& docking, int length, std::uint64_t draw) {
+  const int n = docking.slices(), begin = docking.solidBegin(), end = docking.solidEnd();
+  const int count = end - begin;
+  std::vector<double> path(static_cast<std::size_t>(length));
+  if (count < 1) {
+    for (int i = 0; i < length; ++i)
+      path[static_cast<std::size_t>(i)] = std::clamp((i + 0.5) * n / length - 0.5, 0.0, n - 1.0);
+    return path;
+  }
+  const ResultSlices result(docking, length);
+  // How much longer each slice becomes: least squares with one sum.
+  const std::vector<double> motion = smoothMotion(count, draw);
+  std::vector<double> longer(static_cast<std::size_t>(count));
+  double sum = 0;
+  for (int s = 0; s < count; ++s) {
+    const auto at = static_cast<std::size_t>(s);
+    longer[at] = (1 + kStretchNoise * motion[at]) / (kStiffness + docking.change(begin + s));
+    sum += longer[at];
+  }
+  for (double& l : longer) l *= (result.made - count) / sum;
+  // Where each slice of the result lies among those of the example, laid out one after another.
+  int slice = 0;
+  double at = 0;  // of the slice's beginning in the result
+  for (int i = 0; i < length; ++i) {
+    double& place = path[static_cast<std::size_t>(i)];
+    const int inside = i - result.ahead;
+    if (inside < 0 || inside >= result.made) {
+      place = std::clamp(inside < 0 ? begin + inside : end + inside - result.made, 0, n - 1);
+      continue;
+    }
+    const double middle = inside + 0.5;
+    while (slice + 1 < count && at + 1 + longer[static_cast<std::size_t>(slice)] <= middle)
+      at += 1 + longer[static_cast<std::size_t>(slice++)];
+    place = begin + slice - 0.5 +
+            std::min(1.0, (middle - at) / (1 + longer[static_cast<std::size_t>(slice)]));
+  }
+  return path;
 }
 
 }  // namespace exemplar

@@ -36,4 +36,14 @@ SlicePath variedPath(const SliceDocking& docking, double amplitude, double pull,
 SlicePath fittedPath(const SliceDocking& docking, int length, std::uint64_t draw,
                      std::span<const SliceRange> held = {});
 
+/// The place in the example, in slices, of each slice of a result that is longer, where the example
+/// does not dock onto itself: it is stretched, most where it is like a prism along the axis, and
+/// least where its surface faces along it (Kraevoy, Sheffer, Shamir, Cohen-Or: "Non-homogeneous
+/// resizing of complex models", SIGGRAPH Asia 2008, doi:10.1145/1409060.1409064, here for
+/// slices). The sum of the squared stretches is least, each times what the slice costs
+/// (`SliceDocking::change`) and a smooth random factor of the `draw`. An example without solid is
+/// stretched evenly. Both ends of what is solid stay ends; the air at both has its share.
+/// O(length); deterministic.
+std::vector<double> stretchedPath(const SliceDocking& docking, int length, std::uint64_t draw);
+
 }  // namespace exemplar

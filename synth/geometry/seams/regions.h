@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -112,6 +113,16 @@ Regions findRegions(const Vec3i& size, const Key& key) {
   const std::vector<std::uint32_t> number = sets.numbered(&regions.count);
   for (std::size_t r = 0; r < regions.runs.size(); ++r) regions.runs[r].region = number[r];
   return regions;
+}
+
+/// How many regions of cells there are that `inside` holds of.
+template <class Inside>
+std::uint32_t countPieces(const Vec3i& size, const Inside& inside) {
+  const Regions regions = findRegions(size, inside);
+  std::vector<std::uint8_t> counts(regions.count);
+  regions.forEachRun(
+      [&](const Regions::Run& run, const Vec3i& first) { counts[run.region] = inside(first); });
+  return static_cast<std::uint32_t>(std::count(counts.begin(), counts.end(), 1));
 }
 
 }  // namespace exemplar

@@ -65,6 +65,14 @@ void check(std::span<const DistanceField* const> examples, const VotingOptions& 
   }
   if (options.guide && options.guide->size() != options.size)
     fail("the guide is for a result of another size");
+  if (!options.start.empty()) {
+    const int shrink = options.levels ? 1 << (*options.levels - 1) : 0;
+    Vec3i coarsest;
+    for (int axis = 0; axis < 3 && shrink > 0; ++axis)
+      coarsest[axis] = (options.size[axis] + shrink - 1) / shrink;
+    if (options.start.size() != coarsest || examples.size() > 1 || options.rotations)
+      fail("the start is for a result of another size, or of other `levels` or examples");
+  }
   if (!(options.guideWeight > 0)) fail("the guide's weight must be above 0");
 }
 
@@ -257,7 +265,21 @@ class Voting {
     return regions_->at(place);
   }
 
+  bool isStarted() const { return !options_.start.empty(); }
+
+  /// What `start` says, and around it what lies around the example.
+  PyramidSources startSources(const PyramidLevel& level) const {
+    PyramidSources sources(level.target.framed());
+    parallelForEachCell(sources.size(), [&](const Vec3i& p) {
+      const Vec3i at = p - level.target.margin.before, inside = options_.start.clamped(at);
+      const Vec3i cell = options_.start[inside] + at - inside + level.source.parts[0].begin;
+      sources[p] = level.source.values.clamped(cell);
+    });
+    return sources;
+  }
+
   PyramidSources firstSources(const PyramidLevel& level) const {
+    if (isStarted()) return startSources(level);
     const auto count = static_cast<std::uint32_t>(turns());
     return randomBlocks(level, stationary_, options_.seed, [&](const Vec3i& p) -> PartRange {
       if (!regions_) return {0, count};
@@ -299,7 +321,7 @@ class Voting {
     search.patch = level_.patch;
     for (int axis = 0; axis < 3; ++axis) {
       // A guide says where things are. Turned parts are only taken of what is stationary.
-      const bool free = stationary_[axis] || guided || options_.kept;
+      const bool free = stationary_[axis] || guided || options_.kept || isStarted();
       search.window[axis] = free ? -1 : placeWindow(level_, axis);
     }
     if (!source.matchable.empty()) search.allowed = &source.matchable;

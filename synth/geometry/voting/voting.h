@@ -47,6 +47,10 @@ struct VotingOptions {
   double guideWeight = 1;  ///< of the guide's squared differences among the example's own; > 0
   /// Of several examples, how they share the result, region by region.
   MixOptions mix;
+  /// What the coarsest level starts from: for each of its samples one of the example at that level
+  /// (of 2^(levels - 1) samples a side), of one example that is not turned. Patches may then be
+  /// from anywhere, and come to be from where they look like what is there. Empty: random blocks.
+  Array3D<Vec3i> start;
   /// Parts may be turned about z by quarter turns. Needs an example that is stationary along x and
   /// y.
   bool rotations = false;
