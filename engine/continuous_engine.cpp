@@ -93,6 +93,30 @@ const SettingTable<ContinuousSettings>& continuousSettings() {
   return table;
 }
 
+/// A request's settings, and a scene's own where it says nothing of them.
+ContinuousSettings settingsOf(const Example& example, const Request& request) {
+  Settings all;
+  for (const auto& [key, text] : example.solids->settings) {
+    if (std::ranges::find(continuousSettings().settings(), key, &Setting::key) ==
+        continuousSettings().settings().end())
+      throw InputError(example.name() + ": [settings]: the engine continuous has no `" + key + "`");
+    if (!request.settings.has(key)) all.add(key, text);
+  }
+  ContinuousSettings settings;
+  continuousSettings().apply(all, settings);
+  continuousSettings().apply(request.settings, settings);
+  return settings;
+}
+
+/// A scene's own settings that count, for people.
+std::string readableSettings(const Example& example, const Request& request) {
+  std::string text;
+  for (const auto& [key, value] : example.solids->settings) {
+    if (!request.settings.has(key)) text += (text.empty() ? "" : ", ") + key + " " + value;
+  }
+  return text;
+}
+
 Substance substanceNamed(const Solids& solids, const std::string& name, const std::string& what) {
   const auto found = std::ranges::find(solids.substances, name);
   if (found != solids.substances.end())
@@ -214,8 +238,7 @@ class ContinuousEngine final : public Engine {
   Form form() const override { return Form::Polygons; }
   Vec3i extentOf(std::span<const Example> examples, const Request& request) const override {
     const Example& example = examples.front();
-    ContinuousSettings settings;
-    continuousSettings().apply(request.settings, settings);
+    const ContinuousSettings settings = settingsOf(example, request);
     const PlaneLattice lattice = latticeOf(example.solids->solids, spacingOf(example, settings));
     Vec3i size = resultSize(request, sizeInSpacings(lattice, example.solids->solids),
                             example.hints.scale, "spacings");
@@ -237,8 +260,7 @@ class ContinuousEngine final : public Engine {
                     const Progress& progress) const override {
     const Example& example = examples.front();
     const SolidScene& scene = *example.solids;
-    ContinuousSettings settings;
-    continuousSettings().apply(request.settings, settings);
+    ContinuousSettings settings = settingsOf(example, request);
     settings.options.spacing = spacingOf(example, settings);
     const ContinuousOptions options =
         optionsOf(request, settings, scene.solids, extentOf(examples, request));
@@ -256,6 +278,8 @@ class ContinuousEngine final : public Engine {
     }
     if (made.outcome != Outcome::Complete) return result;
     const ContinuousStatistics& s = made.statistics;
+    if (const std::string own = readableSettings(example, request); !own.empty())
+      result.notes.emplace_back("scene", own);
     result.notes.emplace_back("method", s.whole ? "in one pass" : "in blocks");
     result.notes.emplace_back(
         "figures", withThousands(static_cast<long long>(s.figures)) + " of " +

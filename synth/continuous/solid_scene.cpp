@@ -21,8 +21,8 @@ class Reader {
       : name_(name), root_(parseToml(text, name)) {}
 
   SolidScene read() {
-    requireKeys(root_, {"kind", "unit", "scale", "spacing", "flat", "ground", "substances", "part",
-                        "object"});
+    requireKeys(root_, {"kind", "unit", "scale", "spacing", "flat", "ground", "settings",
+                        "substances", "part", "object"});
     scene_.name = name_;
     scene_.solids.unit = real(root_, "unit", 1, 1e-9, 1e9);
     scene_.solids.substances = {"air"};
@@ -41,6 +41,7 @@ class Reader {
       if (!flat->is_boolean()) fail(*flat, "'flat' must be true or false");
       scene_.solids.flat = *flat->value<bool>();
     }
+    readSettings();
     readLooks();
     readGround();
     const toml::node* parts = root_.get("part");
@@ -133,6 +134,33 @@ class Reader {
     look.name = *name;
     scene_.looks.push_back(look);
     return static_cast<Substance>(names.size() - 1);
+  }
+  /// Texts, numbers, true or false, or lists of texts.
+  void readSettings() {
+    const toml::node* node = root_.get("settings");
+    if (!node) return;
+    if (!node->as_table()) fail(*node, "'settings' must be a table");
+    const auto add = [&](const std::string& key, const toml::node& value) {
+      if (value.is_boolean()) {
+        scene_.settings.emplace_back(key, *value.value<bool>() ? "true" : "false");
+      } else if (value.is_string()) {
+        scene_.settings.emplace_back(key, *value.value<std::string>());
+      } else if (const auto number = value.value<double>()) {
+        char text[32];
+        const auto end = std::to_chars(text, text + sizeof text, *number).ptr;
+        scene_.settings.emplace_back(key, std::string(text, end));
+      } else {
+        fail(value, "'" + key + "' must be a text, a number, true or false, or a list of these");
+      }
+    };
+    for (const auto& [name, value] : *node->as_table()) {
+      const std::string key(name.str());
+      if (!value.as_array()) {
+        add(key, value);
+        continue;
+      }
+      for (const toml::node& one : *value.as_array()) add(key, one);
+    }
   }
   void readLooks() {
     const toml::node* node = root_.get("substances");

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
@@ -34,6 +35,10 @@ struct StandIn {
 ///     spacing = 2                 # distance of planes along the axes, units; found
 ///     ground = { height = 0, substance = "grass" }
 ///
+///     [settings]                  # of the engine continuous, where a request says nothing else
+///     thin = ["street=y"]
+///     groups = 1
+///
 ///     [substances]                # looks; sRGB colors
 ///     brick = { color = "#a05040", roughness = 0.9 }
 ///
@@ -60,6 +65,8 @@ struct SolidScene {
   std::vector<Material> looks;    ///< of each substance, air's first
   std::vector<StandIn> standIns;  ///< boxes that become meshes again in results
   Vec3d scale{3, 3, 1};
+  /// Good settings for it, as keys and texts.
+  std::vector<std::pair<std::string, std::string>> settings;
   std::optional<std::int64_t> spacing;
 };
 

@@ -125,7 +125,7 @@ TEST(FitParts, LaterPartsOfOtherMaterialsReplace) {
 }
 
 TEST(FitParts, RefusesWhatIsTooFineWithTheCount) {
-  const TriangleMesh sphere = makeSphere({0, 0, 0}, 1, 24);
+  const TriangleMesh sphere = makeSphere({0, 0, 0}, 1, 12);
   const std::string why = message(sphere, {.tolerance = 0.001});
   EXPECT_THAT(why, testing::HasSubstr("directions"));
   EXPECT_THAT(why, testing::HasSubstr("`snap`"));
