@@ -42,9 +42,14 @@ struct SideRule {
   enum class Kind {
     Example,  ///< what the example shows at its own outermost layer on that side
     Free,     ///< anything
+    Open,     ///< anything, but what the example shows on that side only is wanted there
     Labels,   ///< any of `labels`
   };
   Kind kind = Kind::Example;
+  /// Whether it excludes anything.
+  bool excludes() const { return kind == Kind::Example || kind == Kind::Labels; }
+  /// Whether the side is to be like the example's.
+  bool likeExample() const { return kind == Kind::Example || kind == Kind::Open; }
   std::vector<Label> labels;
 };
 
