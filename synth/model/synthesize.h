@@ -95,7 +95,7 @@ struct ModelOptions {
   double moves = 8;
   /// What a window of 8 x 8 columns costs then that stands verbatim in the example, >= 0, in blocks
   /// that occur once too often.
-  double copyPrice = 40;
+  double copyPrice = 80;
 
   std::array<SideRule, 6> sides;  ///< in the order of `Side`
   Axes periodic;      ///< the result tiles along these: its sides there meet and have no rule
