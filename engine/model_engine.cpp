@@ -85,7 +85,7 @@ void judgeContent(const Content& c, bool smaller, bool objects, const ModelOptio
   result.statistics.emplace_back("objects_per_100_columns", c.objects);
   result.statistics.emplace_back("objects_per_100_columns_example", c.exampleObjects);
   const bool ends = std::any_of(options.sides.begin(), options.sides.begin() + 4,
-                                [](const SideRule& s) { return s.kind != SideRule::Kind::Free; });
+                                [](const SideRule& s) { return s.excludes(); });
   const std::string help =
       options.moves == 0 ? "; with `moves` of 1 or more it comes nearer"
       : ends ? "; try more `moves`, `side` all=free where things cannot end, or a larger `size`"

@@ -246,7 +246,7 @@ void usualSides(const Example& example, ModelOptions& model) {
   for (int axis = 0; axis < 2; ++axis) {
     if (!cut[axis]) continue;
     // What runs along an axis and is cut at one end may be cut at the other, too.
-    model.sides[2 * axis].kind = model.sides[2 * axis + 1].kind = SideRule::Kind::Free;
+    model.sides[2 * axis].kind = model.sides[2 * axis + 1].kind = SideRule::Kind::Open;
   }
 }
 

@@ -37,6 +37,9 @@ constexpr double kConflicts = 1.6;
 /// where all is slopes, as in a canyon, nothing comes whole, and slopes take some cells to meet.
 constexpr double kWideFrom = 0.3;
 constexpr int kConflictsWide = 60, kWidestRim = 6;
+/// As long as rims have not taken more work than this for each column (`PatchMove::work`): where
+/// most of them cannot be closed, wide ones are many times as much work.
+constexpr double kWorkOnRims = 1500;
 /// The share of the cells around a core that its place in the example must agree with, at last.
 constexpr double kAgreement = 0.75;
 /// One core in so many has a part of the height only.
@@ -60,7 +63,8 @@ class PatchAnnealing {
     std::vector<PatchMove::Before> before;
     std::vector<BlockCounts::Changed> changed;
     BlockCounts::Change blocks;
-    Vec3i low, high;  // the box of what changed
+    Vec3i low, high;        // the box of what changed
+    std::int64_t work = 0;  // on rims
   };
 
   void findImages();
@@ -88,6 +92,7 @@ class PatchAnnealing {
   tbb::enumerable_thread_specific<PatchMove> moves_;
   Random random_, rims_;
   double done_ = 0, temperature_ = 0;
+  std::int64_t work_ = 0;
 };
 
 PatchAnnealing::PatchAnnealing(const ModelProblem& problem, const LabelSets& base,
@@ -204,13 +209,15 @@ void PatchAnnealing::propose(Proposal& proposal, std::uint64_t number, const Vec
   const Vec3i grown = min(patch.core.size() + Vec3i{8, 8, 0}, patch.grown.size());
   patch.mostConflicts = 2 + static_cast<int>(kConflicts * 2 * (grown.x + grown.y) * done_);
   patch.rim = draws.between(1, kRim);
-  if (done_ >= kWideFrom) {
+  const double columns = double(options_.size.x) * options_.size.y;
+  if (done_ >= kWideFrom && static_cast<double>(work_) <= kWorkOnRims * columns * done_) {
     patch.mostConflicts = std::max(patch.mostConflicts, kConflictsWide);
     patch.widestRim = kWidestRim;
   }
   if (draws.below(kFar) > 0) patch.mostImplied = kImplied;
   proposal.threshold = -temperature_ * std::log(1 - draws.uniform());
   proposal.outcome = PatchMove::Outcome::Nothing;
+  proposal.work = 0;
   const auto alignment = alignments_.find(draws, window, patch.core, grid_, kAgreement * done_);
   if (!alignment) return;
   const auto worth = [&] {
@@ -218,8 +225,11 @@ void PatchAnnealing::propose(Proposal& proposal, std::uint64_t number, const Vec
     for (const auto& c : proposal.changed) grid_[problem_.position(c.cell, c.frame)] = c.before;
     return counts_.estimate(proposal.blocks) <= proposal.threshold + kSlack;
   };
-  proposal.outcome = moves_.local().make(window, *alignment, patch, rims_.fork(number), labels_,
-                                         proposal.before, worth, progress_);
+  PatchMove& move = moves_.local();
+  const std::int64_t before = move.work();
+  proposal.outcome = move.make(window, *alignment, patch, rims_.fork(number), labels_,
+                               proposal.before, worth, progress_);
+  proposal.work = move.work() - before;
   if (proposal.outcome != PatchMove::Outcome::Made) return;
   show(proposal);
   if (proposal.changed.empty()) {
@@ -307,6 +317,7 @@ double PatchAnnealing::run(ModelStatistics& statistics) {
       for (std::size_t i = begin; i < end; ++i) propose(proposals[i], number + i, at[i]);
     });
     number += at.size();
+    for (std::size_t i = 0; i < at.size(); ++i) work_ += proposals[i].work;
     for (std::size_t i = 0; i < at.size(); ++i) {
       if (proposals[i].outcome == PatchMove::Outcome::Made && weigh(proposals[i]))
         ++statistics.movesKept;

@@ -146,16 +146,17 @@ void BlockCounts::grow() {
 void BlockCounts::countSources(std::span<const PatchSource> sources, const Progress& progress) {
   const ModelOptions& o = problem_->options();
   std::array<bool, 2> ends{};
+  bool nothingCut = true;
   for (int axis = 0; axis < 2; ++axis) {
-    const auto kind = [&](int s) { return o.sides[2 * axis + s].kind; };
-    ends[axis] = !o.periodic[axis] && kind(0) == SideRule::Kind::Example &&
-                 kind(1) == SideRule::Kind::Example;
+    const SideRule &low = o.sides[2 * axis], &high = o.sides[2 * axis + 1];
+    ends[axis] = !o.periodic[axis] && low.likeExample() && high.likeExample();
+    nothingCut = nothingCut && ends[axis] && low.excludes() && high.excludes();
   }
   const auto none = static_cast<std::size_t>(labels_);
   // Single cells: their labels, perhaps at each height, are their numbers.
   target_.assign(none * (stands_ ? size_.z : 1), 0);
   std::vector<ColumnRatios> columnsOf;
-  for (const PatchSource& source : sources) columnsOf.emplace_back(source, size_, ends);
+  for (const PatchSource& source : sources) columnsOf.emplace_back(source, size_, ends, nothingCut);
   struct Shown {
     std::int32_t block;
     Place place;

@@ -10,8 +10,8 @@
 namespace exemplar {
 
 ColumnRatios::ColumnRatios(const PatchSource& source, const Vec3i& size,
-                           const std::array<bool, 2>& ends)
-    : source_(&source), ends_(ends) {
+                           const std::array<bool, 2>& ends, bool whole)
+    : source_(&source), ends_(ends), whole_(whole) {
   const Vec3i n = source.size;
   for (int x = 0; x < n.x; ++x) {
     for (int y = 0; y < n.y; ++y) {
@@ -25,14 +25,16 @@ ColumnRatios::ColumnRatios(const PatchSource& source, const Vec3i& size,
 
 void ColumnRatios::findColumnsOfSides() {
   const Vec3i n = source_->size;
-  std::unordered_set<std::u16string> inside;
+  std::unordered_set<char16_t> inside;
   for (int x = 0; x < n.x; ++x) {
-    for (int y = 0; y < n.y; ++y)
-      if (!onRing(0, x) && !onRing(1, y)) inside.insert(columns_[column(x, y)]);
+    for (int y = 0; y < n.y; ++y) {
+      const std::u16string& labels = columns_[column(x, y)];
+      if (!onRing(0, x) && !onRing(1, y)) inside.insert(labels.begin(), labels.end());
+    }
   }
-  for (int x = 0; x < n.x; ++x) {
-    for (int y = 0; y < n.y; ++y)
-      ofSide_.push_back((onRing(0, x) || onRing(1, y)) && !inside.contains(columns_[column(x, y)]));
+  for (const std::u16string& labels : columns_) {
+    ofSide_.push_back(
+        std::ranges::any_of(labels, [&](char16_t label) { return !inside.contains(label); }));
   }
 }
 
@@ -88,7 +90,7 @@ std::vector<int> ColumnRatios::groundBlocks(const Vec3i& wide, const Vec3i& from
 
 std::vector<double> ColumnRatios::of(const Vec3i& wide, const Vec3i& from, const Vec3i& to) const {
   Shares all = share(wide, from, to);
-  if (wide.x * wide.y == 1 || !ends_[0] || !ends_[1]) return std::move(all.ratio);
+  if (wide.x * wide.y == 1 || !whole_) return std::move(all.ratio);
   const std::vector<int> ground = groundBlocks(wide, from);
   if (ground.empty()) return std::move(all.ratio);
   for (const int place : all.others) all.ratio[place] = single_;

@@ -14,20 +14,21 @@ namespace exemplar {
 /// How often what begins at each column of an example should occur in a result of another size, so
 /// that as much is built for each column of the result as in the example.
 ///
-/// What the example shows only along a side that the result has, too, as the end of a ground, is
-/// expected once for each place along that side; all else shares the other columns.
+/// Columns with labels that the example shows only along a side that the result has, too, as the
+/// end of a ground, are expected once for each place along that side; all others share the rest.
 class ColumnRatios {
  public:
-  /// `size`: of the result; `ends`: whether it has sides like the example's across x and y.
-  /// The source must outlive it.
-  ColumnRatios(const PatchSource& source, const Vec3i& size, const std::array<bool, 2>& ends);
+  /// `size`: of the result; `ends`: whether it has sides like the example's across x and y;
+  /// `whole`: whether nothing runs over any side. The source must outlive it.
+  ColumnRatios(const PatchSource& source, const Vec3i& size, const std::array<bool, 2>& ends,
+               bool whole);
 
   /// Of blocks of `wide` columns, for which there are `from` places in the example and `to` in the
   /// result: for each place of the example, x * from.y + y, how often its block should occur.
   ///
   /// A larger result has more places for its columns, since sides cut off fewer. What is built
   /// occurs as often as single columns do; the places that remain are for blocks of columns that
-  /// are alike: ground. Where there are none, or not all sides are like the example's, all that is
+  /// are alike: ground. Where there are none, or things run over sides, all that is
   /// not for sides shares the places. O(columns of the example x their height).
   std::vector<double> of(const Vec3i& wide, const Vec3i& from, const Vec3i& to) const;
 
@@ -48,8 +49,9 @@ class ColumnRatios {
 
   const PatchSource* source_;
   std::array<bool, 2> ends_;
+  bool whole_;
   std::vector<std::u16string> columns_;  // their labels
-  std::vector<bool> ofSide_;             // of each column, whether it occurs along sides only
+  std::vector<bool> ofSide_;             // of each column, whether it has a label of sides only
   double single_ = 0;                    // how often single columns occur that do not
 };
 

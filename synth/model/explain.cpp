@@ -22,8 +22,7 @@ class DemandSet {
       : problem_(problem), progress_(progress), catalog_(problem.network()) {
     pins_ = static_cast<int>(problem.options().pins.size());
     for (int d = 0; d < pins_ + 6; ++d) {
-      const bool rule =
-          d < pins_ || problem.options().sides[d - pins_].kind != SideRule::Kind::Free;
+      const bool rule = d < pins_ || problem.options().sides[d - pins_].excludes();
       if (rule) all_.push_back(d);
     }
   }

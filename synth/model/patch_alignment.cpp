@@ -47,8 +47,7 @@ PatchMove::Alignment PatchAlignments::anywhere(Draws& draws,
     if (c < kNearSide && draws.below(4) > 0) a.cell[axis] = c;
     if (n - 1 - c < kNearSide && draws.below(4) > 0) a.cell[axis] = source.size[axis] - (n - c);
   }
-  const bool up = o.periodic.z || (o.sides[4].kind == SideRule::Kind::Free &&
-                                   o.sides[5].kind == SideRule::Kind::Free);
+  const bool up = o.periodic.z || (!o.sides[4].excludes() && !o.sides[5].excludes());
   a.cell.z = window.center.z;
   if (up) a.cell.z += draws.between(1 - source.size.z, o.size.z - 1);
   return a;

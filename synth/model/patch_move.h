@@ -78,6 +78,8 @@ class PatchMove {
   Outcome make(const Window& window, const Alignment& alignment, const Patch& patch,
                const Random& random, std::span<Label> labels, std::vector<Before>& before,
                const std::function<bool()>& worth, const Progress& progress = {});
+  /// What closing rims has taken since the object was made, as `Region::Counts::work`.
+  std::int64_t work() const { return region_.counts().work; }
 
  private:
   struct Member {

@@ -444,7 +444,7 @@ LabelSets ModelProblem::domains(const ModelDemands& demands, const Progress& pro
   for (int s = 0; s < 6; ++s) {
     const int axis = s / 2;
     const SideRule& rule = o.sides[s];
-    if (!demands.sides[s] || o.periodic[axis] || rule.kind == SideRule::Kind::Free) continue;
+    if (!demands.sides[s] || o.periodic[axis] || !rule.excludes()) continue;
     allow(rule.kind == SideRule::Kind::Example ? adjacency_->sides[s] : rule.labels);
     const int fixed = s % 2 ? o.size[axis] - 1 : 0;
     const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;

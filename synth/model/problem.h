@@ -45,8 +45,8 @@ class ModelProblem {
   /// Whether a height is the example's from the bottom up: where the result does not tile along z,
   /// and bottom or top has a rule.
   bool heightsDiffer() const {
-    return !options_->periodic.z && (options_->sides[4].kind != SideRule::Kind::Free ||
-                                     options_->sides[5].kind != SideRule::Kind::Free);
+    return !options_->periodic.z &&
+           (options_->sides[4].excludes() || options_->sides[5].excludes());
   }
   int frameAt(std::int64_t position) const { return static_cast<int>(position % options_->frames); }
   /// The network's cell at a position, or -1 at a hole.

@@ -21,8 +21,9 @@ struct Spacing {
   int gap, free;
 };
 constexpr std::array<Spacing, 5> kSpacings{{{1, 0}, {3, 1}, {4, 2}, {4, 3}, {4, 1000}}};
-/// Larger tiles than this are not tried: labels in all cells.
+/// Larger tiles than this are not tried: labels in all cells, and cells.
 constexpr std::int64_t kMostTileLabels = 200'000;
+constexpr int kMostTileCells = 8'000;
 /// Of `ExactSolver::steps`.
 constexpr std::int64_t kSteps = 20'000;
 /// Of `Region::Counts::work`: where one spacing takes more, only the last is tried after it.
@@ -46,7 +47,7 @@ class Repeat {
  private:
   /// What the copy shows at a cell of the tile, and how far that is from the copy's sides.
   std::pair<std::optional<Label>, int> shownAt(int cell) const;
-  void demandCopy(Region& region) const;
+  void demandCopy(Region& region, const Progress& progress) const;
 
   const ModelProblem& problem_;
   const LabelGrid& example_;
@@ -67,7 +68,7 @@ std::pair<std::optional<Label>, int> Repeat::shownAt(int cell) const {
 
 /// Demands the example's labels from the middle outward, but for those that exclude each other in a
 /// tile.
-void Repeat::demandCopy(Region& region) const {
+void Repeat::demandCopy(Region& region, const Progress& progress) const {
   struct Wanted {
     int inward;
     std::int32_t number;
@@ -81,6 +82,7 @@ void Repeat::demandCopy(Region& region) const {
   std::ranges::stable_sort(wanted, std::ranges::greater{}, &Wanted::inward);
   std::vector<LabelWord> set(static_cast<std::size_t>(problem_.network().words()));
   for (const Wanted& w : wanted) {
+    if (w.number % 64 == 0) progress.check();
     if (!containsLabel(region.possible(w.number), w.label)) continue;
     std::ranges::fill(set, 0);
     set[w.label / 64] = LabelWord{1} << (w.label % 64);
@@ -91,13 +93,15 @@ void Repeat::demandCopy(Region& region) const {
 std::optional<std::vector<Label>> Repeat::find(const LabelSets& base, const LabelChooser& chooser,
                                                std::uint64_t number, ModelStatistics& statistics,
                                                const Progress& progress) {
-  if (!tile_.findCells(base, kMostTileLabels, progress)) return std::nullopt;
+  if (!tile_.findCells(base, kMostTileLabels, progress) ||
+      static_cast<int>(tile_.members().size()) > kMostTileCells)
+    return std::nullopt;
   tile_.findNeighbors();
   std::vector<std::int32_t> all(static_cast<std::size_t>(tile_.network().cells));
   std::iota(all.begin(), all.end(), 0);
   Region region(tile_.network(), tile_.domains());
   if (!region.takeBack(all, std::span<const Label>{}, progress)) return std::nullopt;
-  demandCopy(region);
+  demandCopy(region, progress);
   RegionChoice choice{chooser.numbersFor(LabelChooser::Purpose::Start).fork(number)};
   choice.choose = [&](const Random&, int c, std::span<const LabelWord> set, int) {
     if (const auto label = shownAt(c).first; label && containsLabel(set, *label))

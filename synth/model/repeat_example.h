@@ -19,8 +19,9 @@ namespace exemplar {
 /// example's outermost columns, and at last all that must. Where the result is higher than the
 /// example, what is above is free.
 ///
-/// None where none of this is found soon, where the result is not larger than the example, or for
-/// pins, holes, frames or a symmetry. O(cells of the example^2) for each gap, and O(cells).
+/// None where none of this is found soon, where the result is not larger than the example, for
+/// examples of more than some 8,000 cells, and for pins, holes, frames or a symmetry. O(cells of
+/// the example^2) for each gap, and O(cells).
 std::optional<std::vector<Label>> repeatExample(const ModelProblem& problem, const LabelSets& base,
                                                 const LabelChooser& chooser,
                                                 const LabelGrid& example,

@@ -31,21 +31,17 @@ class PlaneOrder {
     if (axis_ == 2 && problem_.heightsDiffer()) {
       if (std::vector<int> upright = uprightOrder(); !upright.empty()) return upright;
     }
-    std::vector<int> firsts;
-    for (int p = 0; p < planes_; ++p)
-      if (allowedAt(p, 0)) firsts.push_back(p);
-    for (std::size_t i = firsts.size(); i > 1; --i)  // any of them may do
-      std::swap(firsts[i - 1], firsts[draws.below(static_cast<int>(i))]);
-    for (const int first : firsts) {
-      progress.check();
-      findWaysToEnd(first);
-      if (mayEnd(length_ - 1, first)) return walk(first, draws);
+    // Where a side is to be like the example's but need not, that is tried first.
+    for (const bool strict : {true, false}) {
+      strict_ = strict;
+      if (std::vector<int> order = findBetweenEnds(draws, progress); !order.empty()) return order;
     }
     return {};
   }
 
  private:
   void findFollowers();
+  std::vector<int> findBetweenEnds(Draws& draws, const Progress& progress);
   std::vector<int> uprightOrder() const;
   void findWaysToEnd(int first);
   std::vector<int> walk(int first, Draws& draws) const;
@@ -64,6 +60,7 @@ class PlaneOrder {
   const ModelProblem& problem_;
   const LabelGrid& example_;
   const int axis_, planes_, length_;
+  bool strict_ = true;
   std::vector<std::uint8_t> follows_, ends_;
 };
 
@@ -71,7 +68,9 @@ bool PlaneOrder::allowedAt(int plane, int end) const {
   const ModelOptions& o = problem_.options();
   const int side = 2 * axis_ + end;
   const SideRule& rule = o.sides[side];
-  if (o.periodic[axis_] || rule.kind == SideRule::Kind::Free) return true;
+  if (strict_ && rule.kind == SideRule::Kind::Open && !o.periodic[axis_])
+    return plane == (end == 0 ? 0 : planes_ - 1);
+  if (o.periodic[axis_] || !rule.excludes()) return true;
   const std::vector<Label>& list =
       rule.kind == SideRule::Kind::Example ? problem_.adjacency().sides[side] : rule.labels;
   bool all = true;
@@ -102,6 +101,20 @@ void PlaneOrder::findFollowers() {
       }
     }
   }
+}
+
+std::vector<int> PlaneOrder::findBetweenEnds(Draws& draws, const Progress& progress) {
+  std::vector<int> firsts;
+  for (int p = 0; p < planes_; ++p)
+    if (allowedAt(p, 0)) firsts.push_back(p);
+  for (std::size_t i = firsts.size(); i > 1; --i)  // any of them may do
+    std::swap(firsts[i - 1], firsts[draws.below(static_cast<int>(i))]);
+  for (const int first : firsts) {
+    progress.check();
+    findWaysToEnd(first);
+    if (mayEnd(length_ - 1, first)) return walk(first, draws);
+  }
+  return {};
 }
 
 /// The layers as they are, the uppermost again and again; empty where that cannot be.

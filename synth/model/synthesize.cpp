@@ -117,8 +117,8 @@ bool soughtInWindows(const ModelOptions& options) {
 
 /// Whether all vertical sides have a rule, so that what is there ends.
 bool ends(const ModelOptions& options) {
-  return std::none_of(options.sides.begin(), options.sides.begin() + 4,
-                      [](const SideRule& s) { return s.kind == SideRule::Kind::Free; });
+  return std::all_of(options.sides.begin(), options.sides.begin() + 4,
+                     [](const SideRule& s) { return s.excludes(); });
 }
 
 /// What patches go on from, where that is found at once. Patches bring what is to be there: ground

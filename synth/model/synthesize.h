@@ -42,9 +42,14 @@ struct SideRule {
   enum class Kind {
     Example,  ///< what the example shows at its own outermost layer on that side
     Free,     ///< anything
+    Open,     ///< anything, but what the example shows on that side only is wanted there
     Labels,   ///< any of `labels`
   };
   Kind kind = Kind::Example;
+  /// Whether it excludes anything.
+  bool excludes() const { return kind == Kind::Example || kind == Kind::Labels; }
+  /// Whether the side is to be like the example's.
+  bool likeExample() const { return kind == Kind::Example || kind == Kind::Open; }
   std::vector<Label> labels;
 };
 
@@ -90,7 +95,7 @@ struct ModelOptions {
   double moves = 8;
   /// What a window of 8 x 8 columns costs then that stands verbatim in the example, >= 0, in blocks
   /// that occur once too often.
-  double copyPrice = 40;
+  double copyPrice = 80;
 
   std::array<SideRule, 6> sides;  ///< in the order of `Side`
   Axes periodic;      ///< the result tiles along these: its sides there meet and have no rule

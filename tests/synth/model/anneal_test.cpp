@@ -149,7 +149,7 @@ TEST(BlockCounts, AsManyObjectsAreWantedForEachColumnAsInTheExample) {
 
 TEST(BlockCounts, HeightsOfWhatFloatsAreWanted) {
   const LabelGrid example = towers({10, 10, 12}, {{3, 3, 4}});
-  // All blocks are alike, and 8 cells stand where they should not.
+  // All blocks are alike, and 8 cells are where none should be.
   EXPECT_NEAR(energyOf(example, towers({10, 10, 12}, {{3, 3, 7}})), 3.0 * 8 * 4, 1e-9);
 }
 

@@ -82,6 +82,25 @@ TEST(StartOverSides, IsSoundAndTheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(testing::onThreads(1, start), testing::onThreads(8, start));
 }
 
+TEST(StartOverSides, WhatOnlyOpenSidesShowIsThere) {
+  // A fence along all sides, and a wall that runs out through two of them: what is open there is
+  // fenced all the same.
+  Request request(test::drawn({{"ffffffff", "fggggggf", "fggggggf", "wwwwwwww", "fggggggf",
+                                "fgggpggf", "ffffffff"}}),
+                  {20, 20, 1});
+  for (const int side : {0, 1}) request.options.sides[side].kind = SideRule::Kind::Open;
+  for (const int side : {2, 3}) request.options.sides[side].kind = SideRule::Kind::Example;
+  Request::Prepared p(request);
+  const auto labels =
+      startOverSides(p.problem, p.base, p.chooser, std::span(&request.example, 1), p.statistics);
+  ASSERT_TRUE(labels);
+  expectSound(p, *labels);
+  const Label fence = request.example.cells(0, 0, 0);
+  int fenced = 0;
+  for (int y = 0; y < 20; ++y) fenced += (*labels)[p.problem.position({0, y, 0})] == fence;
+  EXPECT_GE(fenced, 12);
+}
+
 TEST(StartOverSides, OfSeveralStartsTheNearestIsTaken) {
   const Request request(cutWalls(), {40, 40, 1});
   Request::Prepared p(request);
