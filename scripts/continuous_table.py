@@ -19,24 +19,24 @@ import zlib
 
 # Name, what of Table 4.1 it stands for (polygons in and out, minutes), example, and arguments.
 RESULTS = [
-    ("skyscrapers", (27, 9542, 1.8), "skyscrapers", ["--scale", "16,16,1.2"]),
+    ("skyscrapers", (27, 9542, 1.8), "skyscrapers", ["--scale", "25,25,1.2"]),
     ("terrain", (22, 922, 0.5), "ridges", ["--scale", "9,9,1.2"]),
-    ("fractals", (8, 5743, 0.2), "tetrahedra", ["--scale", "14,14,7"]),
-    ("arches", (20, 1002, 0.5), "arches", ["--scale", "6,6,2"]),
-    ("houses", (39, 1908, 1.3), "houses", ["--scale", "7,7,1.5"]),
-    ("pentagons", (33, 2004, 1.1), "pentagons", ["--scale", "9,9,2"]),
+    ("fractals", (8, 5743, 0.2), "tetrahedra", ["--scale", "21,21,10"]),
+    ("arches", (20, 1002, 0.5), "arches", ["--scale", "8,8,2"]),
+    ("houses", (39, 1908, 1.3), "houses", ["--scale", "9,9,1.5"]),
+    ("pentagons", (33, 2004, 1.1), "pentagons", ["--scale", "7,6,1.4"]),
     ("oil platforms", (60, 1377, 0.5), "platforms", ["--scale", "5,5,1.5", "--groups", "12"]),
-    ("domes", (21, 324, 0.1), "domes", ["--scale", "4,4,2"]),
-    ("buildings", (116, 2230, 1.4), "buildings", ["--scale", "4,4,1.2", "--groups", "20"]),
-    ("spaceships", (168, 4164, 0.6), "fleet", ["--scale", "4,4,2", "--groups", "30"]),
-    ("roads", (126, 6888, 0.2), "roads", ["--scale", "5,7,1"]),
+    ("domes", (21, 324, 0.1), "domes", ["--scale", "6,6,2"]),
+    ("buildings", (116, 2230, 1.4), "buildings", ["--scale", "7,7,1.2", "--groups", "60"]),
+    ("spaceships", (168, 4164, 0.6), "fleet", ["--scale", "2,2,2", "--groups", "12"]),
+    ("roads", (126, 6888, 0.2), "roads", ["--scale", "6,8,1"]),
     ("plumbing", (282, 7422, 0.8), "pipes", ["--scale", "3,3,3"]),
     ("roller coaster", (124, 1376, 1.8), "tracks", ["--scale", "3,4,1"]),
     ("letters", (365, 7527, 3.5), None, []),
 ]
 # The last result: ships in the shape of a letter, towers in that of another, houses in a third.
 LETTERS = [
-    ("fleet", "C", ["--scale", "4,4,2", "--groups", "0"]),
+    ("fleet", "C", ["--scale", "2,2,1", "--groups", "0"]),
     ("skyscrapers", "M", ["--scale", "10,10,1.2"]),
     ("buildings", "S", ["--scale", "4,4,1.2", "--groups", "0"]),
 ]

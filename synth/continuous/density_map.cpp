@@ -78,7 +78,7 @@ Guide applyDensityMap(const DensityMap& map, const ExactBox& box,
       for (std::size_t l = 0; l < c.labels(); ++l) {
         for (std::size_t cell = 0; cell < forbidden.size(); ++cell) {
           if (!forbidden[cell] || c.cells(l)[cell] == kAir) continue;
-          erase(puzzle.domains[v], l);
+          takeOut(puzzle.domains[v], l);
           break;
         }
       }

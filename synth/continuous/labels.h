@@ -86,7 +86,8 @@ inline bool contains(std::span<const Word> set, std::size_t label) {
 inline void insert(std::span<Word> set, std::size_t label) {
   set[label / 64] |= Word{1} << (label % 64);
 }
-inline void erase(std::span<Word> set, std::size_t label) {
+/// Not `erase`, which for a vector would be `std::erase` of words that are equal to the label.
+inline void takeOut(std::span<Word> set, std::size_t label) {
   set[label / 64] &= ~(Word{1} << (label % 64));
 }
 inline int count(std::span<const Word> set) {

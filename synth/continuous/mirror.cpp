@@ -111,7 +111,7 @@ void Mirror::restrict(std::span<const std::uint32_t> half, Domains& domains) con
         keeps =
             c.rays[r].edgeOf[l] == other.rays[ends[r].ray].edgeOf[static_cast<std::size_t>(there)];
       }
-      if (!keeps) erase(domains[v], l);
+      if (!keeps) takeOut(domains[v], l);
     }
   }
 }

@@ -288,7 +288,7 @@ std::optional<Found> Search::backtrack(std::int64_t failuresAllowed, std::size_t
     undo(last.trail);
     ++epoch_;
     std::ranges::copy(domains_[last.vertex], kept_.begin());
-    erase(kept_, last.label);
+    takeOut(kept_, last.label);
     set(last.vertex, kept_.data());
     if (count(domains_[last.vertex]) == 0) continue;
     enqueue(last.vertex);

@@ -415,6 +415,20 @@ TEST(Search, PropagationKeepsEverySolution) {
   }
 }
 
+TEST(Labels, AreTakenOutOfSetsThatAreVectors) {
+  std::vector<Word> set(2);
+  for (const std::size_t label : {0u, 5u, 70u, 127u}) insert(set, label);
+  takeOut(set, 70);
+  takeOut(set, 0);
+  ASSERT_EQ(set.size(), 2u);
+  EXPECT_EQ(count(set), 2);
+  EXPECT_TRUE(contains(set, 5) && contains(set, 127));
+  EXPECT_FALSE(hasOne(set));
+  takeOut(set, 5);
+  EXPECT_TRUE(hasOne(set));
+  EXPECT_EQ(lowest(set), 127u);
+}
+
 TEST(ExactSearch, AgreesWithTheSearch) {
   Small small("pyramid", {3, 3, 2});
   Domains domains = small.puzzle.domains;
@@ -426,7 +440,7 @@ TEST(ExactSearch, AgreesWithTheSearch) {
   // Everything but the background somewhere.
   const std::uint32_t v = small.vertices[small.vertices.size() / 2];
   std::vector<Word> other(domains[v].begin(), domains[v].end());
-  erase(other, static_cast<std::size_t>(small.puzzle.background[v]));
+  takeOut(other, static_cast<std::size_t>(small.puzzle.background[v]));
   const int demand = exact.newDemand();
   exact.addToDemand(demand, v, other);
   const int demands[] = {demand};
