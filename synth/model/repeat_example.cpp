@@ -8,9 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "synth/model/region.h"
 #include "synth/model/start.h"
-#include "synth/model/tile.h"
 
 namespace exemplar {
 namespace {
@@ -24,8 +22,6 @@ constexpr std::array<Spacing, 5> kSpacings{{{1, 0}, {3, 1}, {4, 2}, {4, 3}, {4, 
 /// Larger tiles than this are not tried: labels in all cells, and cells.
 constexpr std::int64_t kMostTileLabels = 200'000;
 constexpr int kMostTileCells = 8'000;
-/// Of `ExactSolver::steps`.
-constexpr std::int64_t kSteps = 20'000;
 /// Of `Region::Counts::work`: where one spacing takes more, only the last is tried after it.
 constexpr std::int64_t kMostWork = 1'000'000;
 
@@ -108,18 +104,8 @@ std::optional<std::vector<Label>> Repeat::find(const LabelSets& base, const Labe
       return static_cast<int>(*label);
     return chooser.mostFrequent(tile_.members()[c], set);
   };
-  const RegionEffort effort{.passes = 0,
-                            .searches = 1,
-                            .searchConflicts = 200,
-                            .exactConflicts = problem_.options().budget,
-                            .exactSteps = kSteps};
-  const Outcome outcome = region.relabel(effort, choice, progress);
-  statistics.exact += region.counts().exact;
+  auto labels = layTile(problem_, tile_, region, choice, statistics, progress);
   work_ = region.counts().work;
-  if (outcome != Outcome::Complete) return std::nullopt;
-  std::vector<Label> labels(static_cast<std::size_t>(problem_.network().cells));
-  tile_.forEach([&](int c, int key) { labels[c] = region.label(tile_.cellOf(key)); });
-  if (!consistent(problem_.network(), labels)) return std::nullopt;
   return labels;
 }
 

@@ -8,9 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "synth/model/region.h"
-#include "synth/model/tile.h"
-
 namespace exemplar {
 namespace {
 
@@ -49,6 +46,23 @@ bool consistent(const LabelNetwork& network, const std::vector<Label>& labels) {
   return true;
 }
 
+std::optional<std::vector<Label>> layTile(const ModelProblem& problem, const Tile& tile,
+                                          Region& region, const RegionChoice& choice,
+                                          ModelStatistics& statistics, const Progress& progress) {
+  const RegionEffort effort{.passes = 0,
+                            .searches = 1,
+                            .searchConflicts = 200,
+                            .exactConflicts = problem.options().budget,
+                            .exactSteps = kSteps};
+  const Outcome outcome = region.relabel(effort, choice, progress);
+  statistics.exact += region.counts().exact;
+  if (outcome != Outcome::Complete) return std::nullopt;
+  std::vector<Label> labels(static_cast<std::size_t>(problem.network().cells));
+  tile.forEach([&](int c, int key) { labels[c] = region.label(tile.cellOf(key)); });
+  if (!consistent(problem.network(), labels)) return std::nullopt;
+  return labels;
+}
+
 std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, const LabelSets& base,
                                                  const LabelChooser& chooser,
                                                  ModelStatistics& statistics,
@@ -73,18 +87,7 @@ std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, co
       if (plain) return chooser.mostFrequent(tile.members()[c], set);
       return chooser.choose(random, tile.members()[c], set, draw);
     };
-    const RegionEffort effort{.passes = 0,
-                              .searches = 1,
-                              .searchConflicts = 200,
-                              .exactConflicts = problem.options().budget,
-                              .exactSteps = kSteps};
-    const Outcome outcome = region.relabel(effort, choice, progress);
-    statistics.exact += region.counts().exact;
-    if (outcome != Outcome::Complete) continue;
-    std::vector<Label> labels(static_cast<std::size_t>(problem.network().cells));
-    tile.forEach([&](int c, int key) { labels[c] = region.label(tile.cellOf(key)); });
-    // Where a periodic side does not meet its opposite after whole tiles this tile will not do.
-    if (consistent(problem.network(), labels)) return labels;
+    if (auto labels = layTile(problem, tile, region, choice, statistics, progress)) return labels;
   }
   return std::nullopt;
 }

@@ -9,6 +9,8 @@
 #include "core/progress.h"
 #include "synth/model/choose.h"
 #include "synth/model/problem.h"
+#include "synth/model/region.h"
+#include "synth/model/tile.h"
 
 namespace exemplar {
 
@@ -23,6 +25,14 @@ std::optional<std::vector<Label>> findTiledStart(const ModelProblem& problem, co
                                                  const LabelChooser& chooser,
                                                  ModelStatistics& statistics,
                                                  const Progress& progress, bool plain = false);
+
+/// Labels for all cells of `region`, which is all of a tile, by search and the exact solver, and
+/// the tile laid over the result. None where nothing is found soon, or where a periodic side does
+/// not meet its opposite after whole tiles.
+std::optional<std::vector<Label>> layTile(const ModelProblem& problem, const Tile& tile,
+                                          Region& region, const RegionChoice& choice,
+                                          ModelStatistics& statistics,
+                                          const Progress& progress = {});
 
 /// Whether every pair of neighbors in the network is allowed.
 bool consistent(const LabelNetwork& network, const std::vector<Label>& labels);
