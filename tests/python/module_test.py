@@ -107,7 +107,7 @@ class Synthesis(WithFiles):
         self.assertLessEqual(len(made.field.to_mesh().decimate(triangles=200).faces), 220)
 
     def test_measures_and_refines(self):
-        made = exemplar.synthesize(exemplar.Example(blocks(), resolution=20), scale=(2, 1, 1))
+        made = exemplar.synthesize(exemplar.Example(blocks(), resolution=32), scale=(2, 1, 1))
         figures = made.measure()
         self.assertGreater(figures["likeness"]["coverage"], 0.2)
         finer = made.detail(2)
