@@ -16,6 +16,7 @@
 #include "mesh/gltf_materials.h"
 #include "mesh/gltf_scene.h"
 #include "mesh/mesh_formats.h"
+#include "mesh/object_names.h"
 
 namespace exemplar {
 namespace {
@@ -124,6 +125,7 @@ class GltfReader {
     }
     materials_.finish();
     nameMesh();
+    objects_.moveTo(mesh_);
     warnOfAttributes();
     return std::move(mesh_);
   }
@@ -441,13 +443,17 @@ class GltfReader {
     source_.warn("attributes of vertices that are not read: " + names);
   }
 
+  std::string dataName(const GltfInstance& instance) {
+    const std::string place = "meshes[" + std::to_string(instance.mesh) + "]";
+    return in_.text(in_.element("meshes", instance.mesh, place), "name", place);
+  }
+
   /// The names of the only object.
   void nameMesh() {
     if (scene_.instances().size() != 1) return;
     const GltfInstance& only = scene_.instances().front();
     mesh_.name = only.name;
-    const std::string place = "meshes[" + std::to_string(only.mesh) + "]";
-    mesh_.dataName = in_.text(in_.element("meshes", only.mesh, place), "name", place);
+    mesh_.dataName = dataName(only);
     if (mesh_.name.empty()) mesh_.name = mesh_.dataName;
     if (mesh_.name == mesh_.dataName) mesh_.dataName.clear();
   }
@@ -456,6 +462,8 @@ class GltfReader {
     std::vector<GltfTransform> joints;
     if (instance.skin) joints = scene_.jointTransforms(*instance.skin);
     const bool mirrors = joints.empty() ? instance.transform.mirrors() : joints.front().mirrors();
+    const std::uint32_t object =
+        objects_.numberOf(instance.name.empty() ? dataName(instance) : instance.name);
     Joiner joiner;
     std::vector<std::vector<std::uint32_t>> vertexOf;
     for (const VertexSet& set : source.sets)
@@ -470,6 +478,7 @@ class GltfReader {
         if (mirrors) std::swap(b, c);
         mesh_.triangles.push_back({vertex[a], vertex[b], vertex[c]});
         mesh_.triangleMaterials.push_back(p.material);
+        mesh_.triangleObjects.push_back(object);
         if (p.uvs.empty()) continue;
         const auto& uv = p.uvs[t];
         mesh_.uvs.push_back(mirrors ? std::array{uv[0], uv[2], uv[1]} : uv);
@@ -537,6 +546,7 @@ class GltfReader {
   GltfScene scene_;
   std::vector<const DecodedMesh*> decoded_;  // of each instance
   std::set<std::string> unread_;
+  ObjectNames objects_;
   /// By mesh, whether a skin moves it, and its weights.
   std::map<std::tuple<std::uint64_t, bool, std::vector<double>>, DecodedMesh> meshes_;
 };

@@ -18,6 +18,7 @@
 #include "mesh/face_outlines.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/mtl.h"
+#include "mesh/object_names.h"
 #include "mesh/polygon.h"
 
 namespace exemplar {
@@ -62,6 +63,7 @@ class ObjReader {
     if (hasUvs_) resolveUvs();
     resolveMaterials();
     if (objects_ != 1) mesh_.name.clear();
+    objectIndex_.moveTo(mesh_);
     if (shortFaces_ > 0) {
       source_.warn("leaving out " + counted(shortFaces_, "face") +
                    " with fewer than three corners");
@@ -76,6 +78,7 @@ class ObjReader {
   /// A face that names vertices which come after it in the file.
   struct PendingFace {
     std::size_t begin, end;  ///< its corners in `pendingCorners_`
+    std::uint32_t object;
     std::uint32_t material;
     std::int64_t line;
   };
@@ -180,7 +183,7 @@ class ObjReader {
     } else if (pending) {
       const std::size_t begin = pendingCorners_.size();
       pendingCorners_.insert(pendingCorners_.end(), corners_.begin(), corners_.end());
-      pending_.push_back({begin, pendingCorners_.size(), material_, in_.line()});
+      pending_.push_back({begin, pendingCorners_.size(), object_, material_, in_.line()});
     } else {
       addFace(in_.line());
     }
@@ -195,6 +198,7 @@ class ObjReader {
         if (c.position >= mesh_.positions.size())
           failAtVertex(face.line, std::int64_t{c.position} + 1);
       }
+      object_ = face.object;
       material_ = face.material;
       addFace(face.line);
     }
@@ -221,6 +225,7 @@ class ObjReader {
     uvIndices_.push_back({a.uv, b.uv, c.uv});
     hasUvs_ = hasUvs_ || a.uv != kNone || b.uv != kNone || c.uv != kNone;
     mesh_.triangleMaterials.push_back(material_);
+    mesh_.triangleObjects.push_back(object_);
   }
 
   /// Corners may name no texture coordinate, or one that no `vt` line defines.
@@ -250,6 +255,7 @@ class ObjReader {
   void nameObject(const std::string& name) {
     ++objects_;
     mesh_.name = name;
+    object_ = objectIndex_.numberOf(name);
   }
 
   void useMaterial(const std::string& name) {
@@ -424,6 +430,8 @@ class ObjReader {
   std::size_t shortFaces_ = 0;
 
   std::uint32_t material_ = kNone;
+  ObjectNames objectIndex_;
+  std::uint32_t object_ = 0;  // what comes before any object has no name
   std::vector<std::string> names_;
   std::unordered_map<std::string, std::uint32_t> nameIndex_;
   std::vector<MtlMaterial> library_;

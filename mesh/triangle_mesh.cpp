@@ -88,6 +88,28 @@ void appendAttribute(std::vector<T>& to, std::size_t toCount, const std::vector<
   to.resize(toCount + fromCount, missing);
 }
 
+/// Adds which objects the triangles of `other` belong to; `triangles` are in the mesh before them.
+void appendObjects(TriangleMesh& mesh, std::size_t triangles, const TriangleMesh& other) {
+  if (mesh.objects.empty() && other.objects.empty()) return;
+  const auto numberOf = [&](const std::string& name) {
+    const auto found = std::ranges::find(mesh.objects, name);
+    const auto number = static_cast<std::uint32_t>(found - mesh.objects.begin());
+    if (found == mesh.objects.end()) mesh.objects.push_back(name);
+    return number;
+  };
+  if (mesh.triangleObjects.empty() && triangles > 0)
+    mesh.triangleObjects.assign(triangles, numberOf(mesh.name));
+  if (other.triangleObjects.empty()) {
+    mesh.triangleObjects.insert(mesh.triangleObjects.end(), other.triangles.size(),
+                                numberOf(other.name));
+    return;
+  }
+  std::vector<std::uint32_t> objectOf;
+  for (const std::string& name : other.objects) objectOf.push_back(numberOf(name));
+  for (const std::uint32_t object : other.triangleObjects)
+    mesh.triangleObjects.push_back(objectOf[object]);
+}
+
 }  // namespace
 
 void validate(const TriangleMesh& mesh, const std::string& name) {
@@ -116,6 +138,7 @@ void validate(const TriangleMesh& mesh, const std::string& name) {
   checkCount(mesh.colors.size(), vertices, "colors", "vertices", name);
   checkCount(mesh.uvs.size(), triangles, "texture coordinates", "triangles", name);
   checkCount(mesh.triangleMaterials.size(), triangles, "material indices", "triangles", name);
+  checkCount(mesh.triangleObjects.size(), triangles, "object indices", "triangles", name);
   checkCount(mesh.sources.size(), triangles, "sources", "triangles", name);
   for (const auto& color : mesh.colors) {
     if (!allFinite(color)) throw InputError(name + ": a vertex color is NaN or infinite");
@@ -132,6 +155,13 @@ void validate(const TriangleMesh& mesh, const std::string& name) {
       throw InputError(name + ": triangle " + std::to_string(t) + " names material " +
                        std::to_string(mesh.triangleMaterials[t]) + " of " +
                        std::to_string(mesh.materials.size()));
+    }
+  }
+  for (std::size_t t = 0; t < mesh.triangleObjects.size(); ++t) {
+    if (mesh.triangleObjects[t] >= mesh.objects.size()) {
+      throw InputError(name + ": triangle " + std::to_string(t) + " names object " +
+                       std::to_string(mesh.triangleObjects[t]) + " of " +
+                       std::to_string(mesh.objects.size()));
     }
   }
   for (const Material& m : mesh.materials) {
@@ -203,6 +233,7 @@ void append(TriangleMesh& mesh, const TriangleMesh& other) {
                   defaultMaterial);
   appendAttribute(mesh.colors, vertices, other.colors, other.positions.size(), {1, 1, 1, 1});
   appendAttribute(mesh.uvs, triangles, other.uvs, other.triangles.size(), {});
+  appendObjects(mesh, triangles, other);
   // A corner that came from nowhere cannot be said.
   if (triangles != 0 && !other.triangles.empty() && mesh.sources.empty() != other.sources.empty()) {
     mesh.sources.clear();

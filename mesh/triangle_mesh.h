@@ -34,12 +34,16 @@ struct TriangleMesh {
   std::vector<std::array<float, 4>> colors;      ///< n or 0: linear RGBA a vertex, 0..1
   std::vector<std::array<Vec2f, 3>> uvs;         ///< m or 0: a corner's texture coordinates, v up
   std::vector<std::uint32_t> triangleMaterials;  ///< m or 0: indices into materials
+  std::vector<std::uint32_t> triangleObjects;    ///< m or 0: indices into objects
   /// m or 0: where each corner came from. Steps that change triangles drop it.
   std::vector<std::array<SourcePoint, 3>> sources;
 
   std::vector<Material> materials;
   std::vector<Texture> textures;
 
+  /// Names of the objects that a file holds, each once, where there are several; may be empty.
+  /// Steps that change triangles drop them.
+  std::vector<std::string> objects;
   std::string name;      ///< of the one object that a file holds; empty for none or several
   std::string dataName;  ///< of that object's mesh, where a file names it apart (glTF)
 

@@ -135,6 +135,7 @@ std::vector<std::uint32_t> vertexComponents(const Triangles& triangles, std::siz
 void keepTriangles(TriangleMesh& mesh, std::span<const std::uint8_t> keep) {
   keepOnly(mesh.uvs, keep);
   keepOnly(mesh.triangleMaterials, keep);
+  keepOnly(mesh.triangleObjects, keep);
   keepOnly(mesh.triangles, keep);
 
   std::vector<std::uint8_t> used(mesh.positions.size(), 0);
@@ -201,6 +202,8 @@ void cutTriangle(TriangleMesh& mesh, std::uint32_t t, const std::array<std::uint
       if (mesh.hasMaterials()) {
         mesh.triangleMaterials.push_back(std::uint32_t{mesh.triangleMaterials[t]});
       }
+      if (!mesh.triangleObjects.empty())
+        mesh.triangleObjects.push_back(std::uint32_t{mesh.triangleObjects[t]});
     }
   }
 }

@@ -195,6 +195,8 @@ bool takeUpVertices(TriangleMesh& mesh, double tolerance, const Progress& progre
           if (mesh.hasMaterials()) {
             mesh.triangleMaterials.push_back(std::uint32_t{mesh.triangleMaterials[t]});
           }
+          if (!mesh.triangleObjects.empty())
+            mesh.triangleObjects.push_back(std::uint32_t{mesh.triangleObjects[t]});
         }
         from = to;
         fromShare = share;

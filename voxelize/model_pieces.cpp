@@ -20,6 +20,14 @@
 namespace exemplar {
 namespace {
 
+/// An object's name without the number that modelers give to its copies: "tower.003" is a "tower".
+std::string objectKind(const std::string& name) {
+  const std::size_t last = name.find_last_not_of("0123456789");
+  if (last == std::string::npos || last + 1 == name.size()) return name;
+  const std::size_t end = name.find_last_not_of("._ ", last);
+  return end == std::string::npos ? name : name.substr(0, end + 1);
+}
+
 /// The looks of labels, gathered from the materials of what they show.
 class LookMixer {
  public:
@@ -39,10 +47,12 @@ class LookMixer {
     }
     for (int c = 0; c < 4; ++c) sum_[c] += color[c] * area;
     area_ += area;
-    areas_[mesh.hasMaterials() ? mesh.materials[number].name : ""] += area;
+    materials_[mesh.hasMaterials() ? mesh.materials[number].name : ""] += area;
+    if (!mesh.triangleObjects.empty())
+      objects_[objectKind(mesh.objects[mesh.triangleObjects[triangle]])] += area;
   }
 
-  /// Named "piece NUMBER, MATERIAL".
+  /// Named "piece NUMBER, OBJECT, MATERIAL": of what most of its surface is.
   LabelLook look(std::size_t number) const {
     LabelLook look;
     for (int c = 0; c < 4; ++c) {
@@ -50,17 +60,18 @@ class LookMixer {
       look.color[c] = std::clamp(static_cast<float>(mean), c < 3 ? 0.0f : 1.0f / 255, 1.0f);
     }
     look.name = "piece " + std::to_string(number);
-    const auto most =
-        std::max_element(areas_.begin(), areas_.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (most != areas_.end() && !most->first.empty()) look.name += ", " + most->first;
+    for (const auto* areas : {&objects_, &materials_}) {
+      const auto most =
+          std::ranges::max_element(*areas, {}, [](const auto& entry) { return entry.second; });
+      if (most != areas->end() && !most->first.empty()) look.name += ", " + most->first;
+    }
     return look;
   }
 
  private:
   std::array<double, 4> sum_{};
   double area_ = 0;
-  std::map<std::string, double> areas_;
+  std::map<std::string, double> objects_, materials_;  // their areas
 };
 
 class PieceFinder {

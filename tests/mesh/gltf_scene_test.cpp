@@ -141,6 +141,17 @@ TEST(GltfScene, InstancesAreAllThere) {
   EXPECT_THROW(turned.read(), InputError);
 }
 
+TEST(GltfScene, NodesAndMeshesNameTheObjectsOfTriangles) {
+  Scene scene;
+  scene.mesh = R"(,"name":"brick")";
+  scene.nodes = R"([{"mesh":0,"name":"tower"},{"mesh":0,"translation":[2,0,0]},
+{"mesh":0,"name":"tower","translation":[4,0,0]}])";
+  scene.roots = "[0,1,2]";
+  const TriangleMesh mesh = scene.read();
+  EXPECT_EQ(mesh.objects, (std::vector<std::string>{"", "tower", "brick"}));
+  EXPECT_EQ(mesh.triangleObjects, (std::vector<std::uint32_t>{1, 2, 1}));
+}
+
 TEST(GltfScene, ASkinPutsVerticesWhereItsJointsAre) {
   Scene scene;
   scene.attributes =

@@ -278,6 +278,19 @@ TEST(MeshFile, ReadsWhatOtherProgramsWriteAsObj) {
       << "without its .mtl the materials keep their names";
 }
 
+TEST(MeshFile, ObjSaysWhichObjectATriangleIsOf) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  // A face that names a vertex which comes later is added at the end, and keeps its object.
+  const TriangleMesh two =
+      parse(".obj", corners + "o tower\nf 1 2 5\no wall\nf 1 2 3 4\nv 2 2 2\no tower\nf 2 3 4\n");
+  EXPECT_EQ(two.objects, (std::vector<std::string>{"", "tower", "wall"}));
+  EXPECT_EQ(two.triangleObjects, (std::vector<std::uint32_t>{1, 2, 2, 1}));
+  EXPECT_EQ(two.name, "");
+  const TriangleMesh one = parse(".obj", corners + "o thing\nf 1 2 3 4\n");
+  EXPECT_TRUE(one.objects.empty() && one.triangleObjects.empty());
+  EXPECT_EQ(one.name, "thing");
+}
+
 TEST(MeshFile, ReadsWhatOtherProgramsWriteAsPly) {
   // Face before other elements, per-vertex texture coordinates, a quad, an element nobody knows.
   const TriangleMesh mesh = parse(

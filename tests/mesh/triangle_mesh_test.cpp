@@ -116,6 +116,22 @@ TEST(Append, FillsInWhatOneSideDoesNotHave) {
   }
 }
 
+TEST(Append, ObjectsOfOneNameAreOne) {
+  TriangleMesh a = oneTriangle(), b = oneTriangle(), unnamed = oneTriangle();
+  a.objects = {"wall", "tower"};
+  a.triangleObjects = {1};
+  b.objects = {"tower", "gate"};
+  b.triangleObjects = {0};
+  append(a, b);
+  append(a, unnamed);
+  EXPECT_EQ(complaint(a), "");
+  EXPECT_EQ(a.triangleObjects[0], a.triangleObjects[1]);
+  EXPECT_EQ(a.objects[a.triangleObjects[1]], "tower");
+  EXPECT_EQ(a.objects[a.triangleObjects[2]], "");
+  a.triangleObjects[2] = 9;
+  EXPECT_THAT(complaint(a), HasSubstr("names object 9 of"));
+}
+
 TEST(Append, ToAnEmptyMeshIsACopy) {
   TriangleMesh full = oneTriangle(), joined;
   full.colors.assign(3, {0.5f, 0, 0, 1});

@@ -194,6 +194,18 @@ TEST(ModelPieces, NamesSayWherePiecesLie) {
   EXPECT_EQ(nameAt(5, 1, 3), "span");
 }
 
+TEST(ModelPieces, NamesSayWhichObjectTheyAreOf) {
+  TriangleMesh mesh = makeBox({{0, 0, 0}, {1, 1, 1}});
+  append(mesh, makeBox({{2, 0, 0}, {3, 1, 0.5}}));
+  mesh.objects = {"gate.002", "tower"};
+  mesh.triangleObjects.assign(mesh.triangles.size(), 0);
+  std::fill_n(mesh.triangleObjects.begin(), mesh.triangles.size() / 2, 1u);
+  const ModelPieces pieces = cutIntoPieces(mesh);
+  const auto nameAt = [&](int x) { return pieces.grid.labels[pieces.grid.cells(x, 0, 0)].name; };
+  EXPECT_THAT(nameAt(0), HasSubstr(", tower"));
+  EXPECT_TRUE(nameAt(2).ends_with(", gate")) << nameAt(2);
+}
+
 TEST(ModelPieces, VertexColorsAndTextureCoordinatesTellPiecesApart) {
   TriangleMesh mesh = makeBox({{0, 0, 0}, {1, 1, 1}});
   append(mesh, makeBox({{2, 0, 0}, {3, 1, 1}}));
