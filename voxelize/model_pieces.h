@@ -32,7 +32,8 @@ struct ModelPieces {
   /// Label 0 is empty; the next ones are pieces in the order in which they come, x fastest, from
   /// the bottom; cells without triangles that lie inside the mesh have a label "inside", so that a
   /// result's solids stay filled. Colors are those of the materials, by area. Names say where most
-  /// of a piece's cells lie, its number, and the material that most of it has: "roof 12, concrete".
+  /// of a piece's cells lie, its number, and the object (without the number of a copy) and material
+  /// that most of it is of: "roof 12, tower, concrete".
   /// Places are "ground" (the lowest layer), "low" (on the ground, nothing above), "roof" (higher,
   /// nothing above), "wall" (something above and below, a side open), "inside" (no side open) and
   /// "span" (nothing below).
