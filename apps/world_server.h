@@ -29,8 +29,7 @@ bool canServe();
 ///     /                    the page
 ///     /world.json          what it needs to know of the world
 ///     /tileset.json        the world's, where `writeTileset` has written one
-///     /tiles/0/I/J.glb     a tile's file; made, and kept in the world's folder, where it is not
-///     there
+///     /tiles/0/I/J.glb     a tile's file; if need be made, and kept in the world's folder
 ///
 /// Nothing else is answered, nothing is read or written but by a tile's number and format, and only
 /// GET and HEAD; where `host` is of this machine alone, only for its own names. One tile is made at

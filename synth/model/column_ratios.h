@@ -28,8 +28,8 @@ class ColumnRatios {
   ///
   /// A larger result has more places for its columns, since sides cut off fewer. What is built
   /// occurs as often as single columns do; the places that remain are for blocks of columns that
-  /// are alike: ground. Where there are none, or things run over sides, all that is
-  /// not for sides shares the places. O(columns of the example x their height).
+  /// are alike: ground. Where there are none, or things run over sides, all that is not for sides
+  /// shares the places. O(columns of the example x their height).
   std::vector<double> of(const Vec3i& wide, const Vec3i& from, const Vec3i& to) const;
 
  private:
