@@ -7,6 +7,7 @@
 
 #include "synth/model/anneal.h"
 #include "synth/model/examples.h"
+#include "synth/model/free_sides.h"
 #include "synth/model/repeat_example.h"
 #include "synth/model/start.h"
 #include "synth/model/stretch_example.h"
@@ -15,40 +16,14 @@
 namespace exemplar {
 namespace {
 
-/// More of an example whose vertical sides are free.
-struct Request {
-  Request(LabelGrid grid, const Vec3i& size)
-      : example(std::move(grid)), adjacency(findAdjacency(example)) {
-    options.size = size;
-    for (int side = 0; side < 4; ++side) options.sides[side].kind = SideRule::Kind::Free;
-  }
-  struct Prepared {
-    explicit Prepared(const Request& r)
-        : problem(r.adjacency, r.options),
-          base(problem.domains(problem.demands())),
-          chooser(problem, std::span(&r.example, 1)) {}
-    ModelProblem problem;
-    LabelSets base;
-    LabelChooser chooser;
-    ModelStatistics statistics;
-  };
-
-  LabelGrid example;
-  Adjacency adjacency;
-  ModelOptions options;
-};
+using test::expectSound;
+using Request = test::FreeSides;
 
 /// Walls that run out of the box at places that do not face each other, and a pond; no order of
 /// planes is longer than the example.
 LabelGrid cutWalls() {
   return test::drawn({{"ggggwggg", "ggggwggg", "wwwwwggg", "gggggggg", "gggggwww", "gppggwgg",
                        "gppggwgg", "gggggwgg"}});
-}
-
-void expectSound(const Request::Prepared& p, const std::vector<Label>& labels) {
-  EXPECT_TRUE(consistent(p.problem.network(), labels));
-  for (int c = 0; c < p.problem.network().cells; ++c)
-    EXPECT_TRUE(containsLabel(p.base[c], labels[c]));
 }
 
 TEST(RepeatExample, CopiesGoOnFromEachOther) {

@@ -8,35 +8,21 @@
 #include <map>
 
 #include "synth/model/examples.h"
-#include "synth/model/start.h"
+#include "synth/model/free_sides.h"
 #include "threads.h"
 
 namespace exemplar {
 namespace {
 
-/// A request for more of an example whose vertical sides are free.
-struct Request {
-  Request(LabelGrid grid, const Vec3i& size)
-      : example(std::move(grid)), adjacency(findAdjacency(example)) {
-    options.size = size;
-    for (int side = 0; side < 4; ++side) options.sides[side].kind = SideRule::Kind::Free;
-  }
+struct Request : test::FreeSides {
+  using FreeSides::FreeSides;
+
   std::optional<std::vector<Label>> stretched() const {
-    const ModelProblem problem(adjacency, options);
-    const LabelSets base = problem.domains(problem.demands());
-    const LabelChooser chooser(problem, std::span(&example, 1));
-    auto labels = stretchExample(problem, base, chooser, std::span(&example, 1));
-    if (labels) {
-      EXPECT_TRUE(consistent(problem.network(), *labels));
-      for (int c = 0; c < problem.network().cells; ++c)
-        EXPECT_TRUE(containsLabel(base[c], (*labels)[c]));
-    }
+    const Prepared p(*this);
+    auto labels = stretchExample(p.problem, p.base, p.chooser, std::span(&example, 1));
+    if (labels) test::expectSound(p, *labels);
     return labels;
   }
-
-  LabelGrid example;
-  Adjacency adjacency;
-  ModelOptions options;
 };
 
 /// A wall with a tower, cut off at both ends, along x between grass.
