@@ -458,6 +458,11 @@ ModelOptions modelOptions(const Request& request, const ModelSettings& settings,
   model.size = resultSize(request, cellsOfExample(example), example.hints.scale, "cells");
   model.periodic = request.periodic;
   model.frames = settings.frames.value_or(1);
+  if (const auto* image = std::get_if<ImageLabels>(&example.content);
+      image && image->options.overlap) {
+    for (int axis = 0; axis < 2; ++axis)
+      model.reach[axis] = image->options.periodic[axis] ? 0 : image->options.piece - 1;
+  }
   usualSides(example, model);
   readSides(settings.side, grid, model);
   readSymmetry(settings, example, model);

@@ -156,7 +156,8 @@ void BlockCounts::countSources(std::span<const PatchSource> sources, const Progr
   // Single cells: their labels, perhaps at each height, are their numbers.
   target_.assign(none * (stands_ ? size_.z : 1), 0);
   std::vector<ColumnRatios> columnsOf;
-  for (const PatchSource& source : sources) columnsOf.emplace_back(source, size_, ends, nothingCut);
+  for (const PatchSource& source : sources)
+    columnsOf.emplace_back(source, size_, ends, nothingCut, o.reach);
   struct Shown {
     std::int32_t block;
     Place place;

@@ -10,8 +10,8 @@
 namespace exemplar {
 
 ColumnRatios::ColumnRatios(const PatchSource& source, const Vec3i& size,
-                           const std::array<bool, 2>& ends, bool whole)
-    : source_(&source), ends_(ends), whole_(whole) {
+                           const std::array<bool, 2>& ends, bool whole, const Vec3i& reach)
+    : source_(&source), ends_(ends), whole_(whole), reach_(reach) {
   const Vec3i n = source.size;
   for (int x = 0; x < n.x; ++x) {
     for (int y = 0; y < n.y; ++y) {
@@ -38,6 +38,21 @@ void ColumnRatios::findColumnsOfSides() {
   }
 }
 
+/// How much of what is along an axis each place of a block stands for: each pixel counts for as
+/// much as the others, in equal parts for all blocks that show it. 1 on average.
+std::vector<double> ColumnRatios::standsFor(int axis, int wide, int from) const {
+  std::vector<double> parts(static_cast<std::size_t>(from), 1.0);
+  if (ends_[axis] || reach_[axis] == 0) return parts;
+  const int shows = wide + reach_[axis], pixels = from + shows - 1;
+  for (int place = 0; place < from; ++place) {
+    parts[place] = 0;
+    for (int p = place; p < place + shows; ++p)
+      parts[place] += 1.0 / std::min({p + 1, pixels - p, shows, from});
+    parts[place] *= double(from) / pixels;
+  }
+  return parts;
+}
+
 ColumnRatios::Shares ColumnRatios::share(const Vec3i& wide, const Vec3i& from,
                                          const Vec3i& to) const {
   std::array<bool, 2> sides{};
@@ -50,8 +65,11 @@ ColumnRatios::Shares ColumnRatios::share(const Vec3i& wide, const Vec3i& from,
     if (!sides[axis]) return double(to[axis]) / from[axis];
     return onSide(axis, at) ? 1 : double(to[axis] - 2) / (from[axis] - 2);
   };
+  const std::vector<double> alongX = standsFor(0, wide.x, from.x);
+  const std::vector<double> alongY = standsFor(1, wide.y, from.y);
   Shares all;
   all.left = double(to.x) * to.y;
+  double parts = 0;
   for (int x = 0; x < from.x; ++x) {
     for (int y = 0; y < from.y; ++y) {
       bool ofSide = false;
@@ -60,12 +78,14 @@ ColumnRatios::Shares ColumnRatios::share(const Vec3i& wide, const Vec3i& from,
       }
       all.ratio.push_back(ofSide ? along(0, x) * along(1, y) : 0);
       all.left -= all.ratio.back();
-      if (!ofSide) all.others.push_back(x * from.y + y);
+      if (ofSide) continue;
+      all.others.push_back(x * from.y + y);
+      parts += alongX[x] * alongY[y];
     }
   }
-  if (!all.others.empty())
-    all.each = std::max(all.left, 0.0) / static_cast<double>(all.others.size());
-  for (const int place : all.others) all.ratio[place] = all.each;
+  if (!all.others.empty()) all.each = std::max(all.left, 0.0) / parts;
+  for (const int place : all.others)
+    all.ratio[place] = all.each * alongX[place / from.y] * alongY[place % from.y];
   return all;
 }
 

@@ -16,12 +16,17 @@ namespace exemplar {
 ///
 /// Columns with labels that the example shows only along a side that the result has, too, as the
 /// end of a ground, are expected once for each place along that side; all others share the rest.
+///
+/// Where labels are windows of a picture that overlap, a pixel near the picture's border is in
+/// fewer windows than one further inside: the windows there stand for more of the picture, so that
+/// colors keep their shares.
 class ColumnRatios {
  public:
   /// `size`: of the result; `ends`: whether it has sides like the example's across x and y;
-  /// `whole`: whether nothing runs over any side. The source must outlive it.
+  /// `whole`: whether nothing runs over any side; `reach`: what a label shows of the cells after
+  /// its own (`ModelOptions::reach`). The source must outlive it.
   ColumnRatios(const PatchSource& source, const Vec3i& size, const std::array<bool, 2>& ends,
-               bool whole);
+               bool whole, const Vec3i& reach = {0, 0, 0});
 
   /// Of blocks of `wide` columns, for which there are `from` places in the example and `to` in the
   /// result: for each place of the example, x * from.y + y, how often its block should occur.
@@ -45,11 +50,13 @@ class ColumnRatios {
   int column(int x, int y) const { return x * source_->size.y + y; }
   void findColumnsOfSides();
   Shares share(const Vec3i& wide, const Vec3i& from, const Vec3i& to) const;
+  std::vector<double> standsFor(int axis, int wide, int from) const;
   std::vector<int> groundBlocks(const Vec3i& wide, const Vec3i& from) const;
 
   const PatchSource* source_;
   std::array<bool, 2> ends_;
   bool whole_;
+  Vec3i reach_;
   std::vector<std::u16string> columns_;  // their labels
   std::vector<bool> ofSide_;             // of each column, whether it has a label of sides only
   double single_ = 0;                    // how often single columns occur that do not

@@ -97,6 +97,10 @@ struct ModelOptions {
   /// that occur once too often.
   double copyPrice = 80;
 
+  /// How many cells after its own a label shows something of along each axis, >= 0, as a window of
+  /// a picture does that begins at every pixel; along axes where the example ends.
+  Vec3i reach{0, 0, 0};
+
   std::array<SideRule, 6> sides;  ///< in the order of `Side`
   Axes periodic;      ///< the result tiles along these: its sides there meet and have no rule
   bool loop = false;  ///< the last frame is followed by the first
