@@ -65,7 +65,7 @@ TEST(Synthesize, EveryBaseIsClosedAndManifold) {
   for (const DistanceField& example : {littleChainmail(), littleMetal(), littleGrass()}) {
     for (const Base base : {Base::None, Base::Under, Base::Carve}) {
       SurfaceOptions options;
-      options.span = 2.6;
+      options.span = 2.9;
       options.base = base;
       expectSound(laid(example, body, options));
     }
@@ -111,7 +111,7 @@ TEST(Synthesize, VolumeIsThatOfTheGroundAndTheMeanHeight) {
   }
   const double radius = 1;
   SurfaceOptions options;
-  options.span = 0.6;
+  options.span = 0.9;
   options.base = Base::Under;
   const SurfaceResult result = laid(example, makeSphere({0, 0, 0}, radius, 24), options);
   const double sample = result.field.voxelSize;
@@ -123,7 +123,7 @@ TEST(Synthesize, VolumeIsThatOfTheGroundAndTheMeanHeight) {
 TEST(Synthesize, ChainmailLeavesNoHolesOnATorus) {
   const DistanceField mail = chainmail();
   SurfaceOptions options;
-  options.span = 1.6;
+  options.span = 2;
   const SurfaceResult result =
       laid(mail, makeTorus({0, 0, 0}, {0, 0, 1}, 1, 0.45, 60, 30), options);
   const Sheet sheet = makeSheet(makeTorus({0, 0, 0}, {0, 0, 1}, 1, 0.45, 60, 30), {.edge = 0.1});
@@ -224,7 +224,7 @@ TEST(Synthesize, AnotherSeedIsAnotherResult) {
 TEST(Synthesize, MapsItsPointsBackOntoTheExamplesSurface) {
   const DistanceField mail = chainmail();
   SurfaceOptions options;
-  options.span = 1.8;
+  options.span = 2.2;
   const SurfaceResult result = laid(mail, makeSphere({0, 0, 0}, 1, 10), options);
   const TriangleMesh mesh = fieldToMesh(result.field);
   const Slab slab(mail);

@@ -21,9 +21,9 @@ namespace {
 using testing::onThreads;
 using testing::ridges;
 
-constexpr int kPitch = 96;
+constexpr int kPitch = 64;
 /// Two windows along x and most of two along y, from somewhere.
-constexpr PlaneBox kBox{{-40, 30}, {160, 190}};
+constexpr PlaneBox kBox{{-28, 20}, {108, 128}};
 
 const std::vector<Grid<float>>& examples() {
   // Land without hollows, or the world would have as many.
@@ -71,7 +71,7 @@ TEST(HeightWorld, WaterRunsEverywhereAcrossWindows) {
   EXPECT_EQ(flooded(region().heights), 0);
   // A pit is found.
   Grid<float> broken = region().heights;
-  broken(100, 80) -= 500;
+  broken(70, 54) -= 500;
   EXPECT_GT(flooded(broken), 0);
 }
 
@@ -89,8 +89,7 @@ bool isPartOfRegion(const HeightWorld::Region& part, const PlaneBox& box) {
 }
 
 TEST(HeightWorld, PartsAreTheSameInAnyOrderAtAnyThreads) {
-  const PlaneBox parts[] = {
-      {{100, 100}, {130, 190}}, {{-40, 30}, {-20, 60}}, {{40, 90}, {70, 110}}};
+  const PlaneBox parts[] = {{{70, 70}, {90, 128}}, {{-28, 20}, {-14, 40}}, {{28, 60}, {48, 74}}};
   const int orders[3][3] = {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}};
   for (int n = 0; n < 3; ++n) {
     onThreads(n == 1 ? 8 : 1, [&] {
@@ -102,7 +101,7 @@ TEST(HeightWorld, PartsAreTheSameInAnyOrderAtAnyThreads) {
       return 0;
     });
   }
-  EXPECT_FALSE(isPartOfRegion(NewWorld().world.region(parts[1]), {{-39, 30}, {-19, 60}}));
+  EXPECT_FALSE(isPartOfRegion(NewWorld().world.region(parts[1]), {{-27, 20}, {-13, 40}}));
 }
 
 /// The mean step of heights along x to the columns where a phase's rims begin or end, over the mean
@@ -130,13 +129,13 @@ double stepAtRims(const Grid<float>& heights) {
 }
 
 TEST(HeightWorld, NoStepShowsWhereWindowsMeet) {
-  // A line of 160 steps of land whose steps differ by about their mean has a mean within a fifth
-  // of the land's, three deviations.
-  EXPECT_LT(stepAtRims(region().heights), 1.25);
+  // A line of 108 steps of land whose steps differ by about their mean has a mean within .29 of the
+  // land's, three deviations.
+  EXPECT_LT(stepAtRims(region().heights), 1.29);
   Grid<float> broken = region().heights;
   for (int y = 0; y < broken.height(); ++y)
-    for (int x = 40; x < broken.width(); ++x) broken(x, y) += 60;
-  EXPECT_GT(stepAtRims(broken), 1.25);
+    for (int x = 28; x < broken.width(); ++x) broken(x, y) += 60;
+  EXPECT_GT(stepAtRims(broken), 1.29);
 }
 
 TEST(HeightWorld, NothingOfItsStartIsLeft) {
