@@ -177,6 +177,12 @@ std::int64_t boundaryCount(const Shape& shape, bool wraps, const Shape* among) {
   return count;
 }
 
+Shape outsideOf(const Shape& shape) {
+  Shape outside(shape.size());
+  for (std::size_t p = 0; p < shape.count(); ++p) outside.data()[p] = !shape.data()[p];
+  return outside;
+}
+
 double areaOf(const Shape& shape) {
   return static_cast<double>(insideOf(shape)) / static_cast<double>(shape.count());
 }

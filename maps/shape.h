@@ -104,6 +104,9 @@ std::vector<Vec3i> boundaryOf(const Shape& shape, bool wraps);
 std::int64_t insideOf(const Shape& shape, const Shape* among = nullptr);
 std::int64_t boundaryCount(const Shape& shape, bool wraps, const Shape* among = nullptr);
 
+/// The shape whose inside is the outside of this one.
+Shape outsideOf(const Shape& shape);
+
 /// The share of cells inside.
 double areaOf(const Shape& shape);
 

@@ -282,6 +282,9 @@ std::vector<Figure> figures(const LayersLikeness& l) {
     list.add(name + "to_example", layer.toExample,
              "distance of its patches to the example's, of a patch; 0 is best");
     list.add(name + "to_result", layer.toResult, "distance of the example's to its; 0 is best");
+    list.add(name + "usage", layer.usage, "how evenly the example's boundary is used, 0 to 1");
+    list.add(name + "longest_run", layer.longestRun,
+             "pixels of boundary that are the example's, moved");
     list.add(name + "component_sizes", layer.componentSizes,
              "Kolmogorov-Smirnov distance of sizes; 0 is best");
   }

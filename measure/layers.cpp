@@ -7,6 +7,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
+#include <set>
+#include <tuple>
 
 #include "core/cells.h"
 #include "core/error.h"
@@ -43,28 +46,112 @@ std::vector<Vec3i> patchCenters(const Shape& shape, bool wraps) {
   return 4 * whole.size() >= all.size() ? whole : all;
 }
 
-/// The mean distance of patches of one shape to their nearest of another, as a share of a patch.
-std::optional<double> meanDistance(const Shape& from, bool fromWraps, const Shape& to, bool toWraps,
-                                   const Progress& progress) {
-  const std::vector<Vec3i> some = thinned(patchCenters(from, fromWraps), kLookedUp);
-  const std::vector<Vec3i> among = thinned(patchCenters(to, toWraps), kLookedAmong);
-  if (some.empty() || among.empty()) return std::nullopt;
+/// Patches of one shape and the nearest of another to each.
+struct NearestOfOther {
+  std::vector<Vec3i> centers, among;
+  std::vector<BoundaryMatch> nearest;  // one for each of the first
+  int cells = 0;                       // of a patch
+
+  double meanDistance() const {
+    double sum = 0;
+    for (const BoundaryMatch& match : nearest) sum += match.distance;
+    return sum / static_cast<double>(nearest.size()) / cells;
+  }
+};
+/// Nothing where one of the two has no boundary.
+std::optional<NearestOfOther> nearestOfOther(const Shape& from, bool fromWraps, const Shape& to,
+                                             bool toWraps, const Progress& progress) {
+  NearestOfOther result{thinned(patchCenters(from, fromWraps), kLookedUp),
+                        thinned(patchCenters(to, toWraps), kLookedAmong),
+                        {}};
+  if (result.centers.empty() || result.among.empty()) return std::nullopt;
   const int side = patchSide(from.size());
-  const BoundaryPatches patches(from, some, side, 1, fromWraps);
-  const BoundaryPatches others(to, among, side, 4, toWraps);
+  const BoundaryPatches patches(from, result.centers, side, 1, fromWraps);
+  const BoundaryPatches others(to, result.among, side, 4, toWraps);
   const NearestPatches nearest(others);
-  return parallelSum<double>(0, patches.count(), 64,
-                             [&](std::size_t first, std::size_t last) {
-                               progress.check();
-                               double sum = 0;
-                               std::vector<BoundaryMatch> found;
-                               for (std::size_t p = first; p < last; ++p) {
-                                 nearest.find(patches, p, 1, {}, found);
-                                 sum += found.front().distance;
-                               }
-                               return sum;
-                             }) /
-         static_cast<double>(patches.count()) / patches.cells();
+  result.cells = patches.cells();
+  result.nearest.resize(patches.count());
+  parallelFor(0, patches.count(), 64, [&](std::size_t first, std::size_t last) {
+    progress.check();
+    std::vector<BoundaryMatch> found;
+    for (std::size_t p = first; p < last; ++p) {
+      nearest.find(patches, p, 1, {}, found);
+      result.nearest[p] = found.front();
+    }
+  });
+  return result;
+}
+
+double usageOf(const NearestOfOther& found) {
+  std::vector<double> uses(found.among.size());
+  const auto count = static_cast<double>(found.nearest.size());
+  for (const BoundaryMatch& match : found.nearest) uses[match.patch] += 1 / count;
+  double entropy = 0;
+  for (const double share : uses)
+    if (share > 0) entropy -= share * std::log(share);
+  return std::exp(entropy) / std::min(count, static_cast<double>(uses.size()));
+}
+
+/// From a place of the result to one of the example: a symmetry, and what is added afterward.
+struct Motion {
+  int symmetry = 0;
+  Vec3i offset;
+
+  Vec3i of(const Vec3i& p) const { return turnedAboutZ(p, symmetry) + offset; }
+  bool operator<(const Motion& other) const {
+    return std::tie(symmetry, offset.x, offset.y) <
+           std::tie(other.symmetry, other.offset.x, other.offset.y);
+  }
+};
+/// Whether the patch around a place and the example's under a motion differ in 3 % of their pixels
+/// at most.
+bool isCopied(const Shape& result, const Vec3i& p, const Shape& example, bool exampleWraps,
+              const Motion& motion) {
+  const int half = patchSide(result.size()) / 2;
+  int differing = 0;
+  for (int dy = -half; dy <= half; ++dy) {
+    for (int dx = -half; dx <= half; ++dx) {
+      const Vec3i here = p + Vec3i{dx, dy, 0};
+      Vec3i there = motion.of(here);
+      if (exampleWraps) there = wrappedPlace(there, example.size());
+      if (!example.contains(there)) return false;
+      differing += (result[wrappedPlace(here, result.size())] != 0) != (example[there] != 0);
+    }
+  }
+  return 100 * differing <= 3 * (2 * half + 1) * (2 * half + 1);
+}
+
+/// From each looked-up patch along the boundary as far as the motion to its nearest one holds.
+std::int64_t longestRun(const Shape& result, const Shape& example, bool exampleWraps,
+                        const NearestOfOther& found, const Progress& progress) {
+  Shape boundary(result.size());
+  for (const Vec3i& p : boundaryOf(result, true)) boundary[p] = 1;
+  std::map<Motion, std::set<std::size_t>> seen;
+  std::int64_t longest = 0;
+  for (std::size_t n = 0; n < found.centers.size(); ++n) {
+    progress.check();
+    const Vec3i& start = found.centers[n];
+    // A turned patch of the example is compared: the example's place of a step is the turned step.
+    Motion motion{found.nearest[n].turn, {}};
+    motion.offset = found.among[found.nearest[n].patch] - motion.of(start);
+    std::set<std::size_t>& known = seen[motion];
+    std::vector<Vec3i> waiting;
+    const auto visit = [&](const Vec3i& p) {
+      const std::size_t at = boundary.index(wrappedPlace(p, boundary.size()));
+      if (!boundary.data()[at] || !known.insert(at).second) return;
+      if (isCopied(result, p, example, exampleWraps, motion)) waiting.push_back(p);
+    };
+    visit(start);
+    std::int64_t run = 0;
+    for (; !waiting.empty(); ++run) {
+      const Vec3i p = waiting.back();
+      waiting.pop_back();
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) visit(p + Vec3i{dx, dy, 0});
+    }
+    longest = std::max(longest, run);
+  }
+  return longest;
 }
 
 std::vector<double> sortedSizes(const Shape& shape, bool wraps) {
@@ -153,8 +240,13 @@ LayersLikeness measureLayers(const LayerVolume& example, bool exampleWraps,
     };
     if (const double wanted = share(e, exampleWraps); wanted > 0)
       layer.boundaryRatio = share(s, true) / wanted;
-    layer.toExample = meanDistance(s, true, e, exampleWraps, progress);
-    layer.toResult = meanDistance(e, exampleWraps, s, true, progress);
+    if (const auto found = nearestOfOther(s, true, e, exampleWraps, progress)) {
+      layer.toExample = found->meanDistance();
+      layer.usage = usageOf(*found);
+      if (s.size().z == 1) layer.longestRun = longestRun(s, e, exampleWraps, *found, progress);
+    }
+    if (const auto found = nearestOfOther(e, exampleWraps, s, true, progress))
+      layer.toResult = found->meanDistance();
     const std::vector<double> a = sortedSizes(e, exampleWraps), b = sortedSizes(s, true);
     if (!a.empty() && !b.empty()) layer.componentSizes = kolmogorovSmirnov(a, b);
     likeness.layers.push_back(layer);

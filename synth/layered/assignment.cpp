@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "core/parallel.h"
+#include "synth/layered/auction.h"
 
 namespace exemplar {
 namespace {
@@ -63,32 +65,57 @@ std::vector<BoundaryMatch> assignGreedily(const BoundaryPatches& set,
   return served;
 }
 
-/// Shortest augmenting paths with potentials (Jonker, Volgenant 1987), one row after another.
+/// The orientation in which a patch of the example is nearest to one of the set.
+BoundaryMatch bestTurn(const BoundaryPatches& set, std::size_t s, const BoundaryPatches& examples,
+                       std::size_t e) {
+  int least = 1 << 30, turn = 0;
+  for (int t = 0; t < examples.turns(); ++t) {
+    const int distance = patchDistance(set, s, examples, e, t);
+    if (distance >= least) continue;
+    least = distance;
+    turn = t;
+  }
+  return {static_cast<std::uint32_t>(e), static_cast<std::uint16_t>(turn),
+          static_cast<std::uint16_t>(least)};
+}
+
+/// The distances of all of the set (rows) to all of the examples (columns).
+Grid<std::uint16_t> distancesOf(const BoundaryPatches& set, const BoundaryPatches& examples,
+                                const Progress& progress) {
+  Grid<std::uint16_t> distances(static_cast<int>(examples.count()), static_cast<int>(set.count()));
+  parallelFor(0, set.count(), 16, [&](std::size_t first, std::size_t last) {
+    progress.check();
+    for (std::size_t s = first; s < last; ++s)
+      for (std::size_t e = 0; e < examples.count(); ++e)
+        distances(static_cast<int>(e), static_cast<int>(s)) =
+            bestTurn(set, s, examples, e).distance;
+  });
+  return distances;
+}
+
 std::vector<BoundaryMatch> assignExactly(const BoundaryPatches& set,
                                          const BoundaryPatches& examples,
+                                         const std::vector<std::uint32_t>& uses,
+                                         const Progress& progress) {
+  const Grid<std::uint16_t> distances = distancesOf(set, examples, progress);
+  std::optional<std::vector<std::uint32_t>> columns;
+  if (set.count() > kMostByPaths) columns = assignByAuction(distances, uses, progress);
+  if (!columns) columns = assignByPaths(distances, uses, progress);
+  std::vector<BoundaryMatch> served;
+  for (std::size_t s = 0; s < set.count(); ++s)
+    served.push_back(bestTurn(set, s, examples, (*columns)[s]));
+  return served;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> assignByPaths(const Grid<std::uint16_t>& costs,
                                          const std::vector<std::uint32_t>& uses,
                                          const Progress& progress) {
   // A column for each use of a patch.
   std::vector<std::uint32_t> columns;
   for (std::uint32_t e = 0; e < uses.size(); ++e) columns.insert(columns.end(), uses[e], e);
-  const std::size_t n = set.count();
-  Grid<std::uint16_t> cost(static_cast<int>(examples.count()), static_cast<int>(n));
-  Grid<std::uint8_t> turns(static_cast<int>(examples.count()), static_cast<int>(n));
-  parallelFor(0, n, 16, [&](std::size_t first, std::size_t last) {
-    progress.check();
-    for (std::size_t s = first; s < last; ++s) {
-      for (std::size_t e = 0; e < examples.count(); ++e) {
-        int least = 1 << 30;
-        for (int t = 0; t < examples.turns(); ++t) {
-          const int distance = patchDistance(set, s, examples, e, t);
-          if (distance >= least) continue;
-          least = distance;
-          turns(static_cast<int>(e), static_cast<int>(s)) = static_cast<std::uint8_t>(t);
-        }
-        cost(static_cast<int>(e), static_cast<int>(s)) = static_cast<std::uint16_t>(least);
-      }
-    }
-  });
+  const auto n = static_cast<std::size_t>(costs.height());
   constexpr int kFar = std::numeric_limits<int>::max() / 2;
   // Rows and columns count from 1; column 0 stands for the row that is being placed.
   std::vector<int> rowPotential(n + 1), columnPotential(n + 1);
@@ -106,7 +133,7 @@ std::vector<BoundaryMatch> assignExactly(const BoundaryPatches& set,
       std::size_t next = 0;
       for (std::size_t c = 1; c <= n; ++c) {
         if (reached[c]) continue;
-        const int reduced = cost(static_cast<int>(columns[c - 1]), static_cast<int>(r - 1)) -
+        const int reduced = costs(static_cast<int>(columns[c - 1]), static_cast<int>(r - 1)) -
                             rowPotential[r] - columnPotential[c];
         if (reduced < slack[c]) {
           slack[c] = reduced;
@@ -129,16 +156,10 @@ std::vector<BoundaryMatch> assignExactly(const BoundaryPatches& set,
     } while (rowOf[column] != 0);
     for (; column != 0; column = cameFrom[column]) rowOf[column] = rowOf[cameFrom[column]];
   }
-  std::vector<BoundaryMatch> served(n);
-  for (std::size_t c = 1; c <= n; ++c) {
-    const std::size_t s = rowOf[c] - 1;
-    const auto e = static_cast<int>(columns[c - 1]);
-    served[s] = {columns[c - 1], turns(e, static_cast<int>(s)), cost(e, static_cast<int>(s))};
-  }
-  return served;
+  std::vector<std::uint32_t> columnOf(n);
+  for (std::size_t c = 1; c <= n; ++c) columnOf[rowOf[c] - 1] = columns[c - 1];
+  return columnOf;
 }
-
-}  // namespace
 
 std::vector<std::uint32_t> fairUses(std::size_t wanted, std::size_t examples,
                                     const Random& random) {
@@ -157,7 +178,7 @@ std::vector<BoundaryMatch> assignPatches(const BoundaryPatches& set,
                                          const BoundaryPatches& examples,
                                          std::vector<std::uint32_t> uses, AssignmentKind kind,
                                          const Random& random, const Progress& progress) {
-  if (kind == AssignmentKind::Exact && set.count() <= kMostExact)
+  if (kind == AssignmentKind::Exact && set.count() * examples.count() <= kMostExactPairs)
     return assignExactly(set, examples, uses, progress);
   return assignGreedily(set, examples, std::move(uses), random, progress);
 }

@@ -15,9 +15,19 @@ namespace exemplar {
 /// How patches of the example are dealt out.
 enum class AssignmentKind {
   Greedy,  ///< cheapest pairs first; within a few hundredths of the optimum
-  Exact,   ///< the optimum, where there are at most `kMostExact` patches; O(patches³)
+  /// The optimum: of up to `kMostByPaths` patches by `assignByPaths`, of
+  /// more by auction (`assignByAuction`). Keeps 2 bytes for each pair of a patch and one of the
+  /// example; where there are more than `kMostExactPairs` pairs, greedy.
+  Exact,
 };
-inline constexpr std::size_t kMostExact = 2000;
+inline constexpr std::size_t kMostByPaths = 2000, kMostExactPairs = std::size_t{1} << 27;
+
+/// For each row of `costs` the column that serves it, where each column serves `uses` times, at the
+/// least sum: shortest augmenting paths with potentials (Jonker, Volgenant 1987), one row after
+/// another. The sum of `uses` is the number of rows. O(rows³). Throws `Cancelled`.
+std::vector<std::uint32_t> assignByPaths(const Grid<std::uint16_t>& costs,
+                                         const std::vector<std::uint32_t>& uses,
+                                         const Progress& progress = {});
 
 /// How often each of `examples` patches serves, so that all serve equally and `wanted` times
 /// together: wanted / examples times each, and some, drawn at random, once more (section 3.2).

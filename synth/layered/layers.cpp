@@ -143,12 +143,6 @@ bool touches(const Shape& upper, const Shape& lower, bool wraps) {
   return static_cast<double>(contacts) > 0.001 * static_cast<double>(boundary.size());
 }
 
-Shape outsideOf(const Shape& shape) {
-  Shape outside(shape.size());
-  for (std::size_t p = 0; p < shape.count(); ++p) outside.data()[p] = !shape.data()[p];
-  return outside;
-}
-
 /// How far from a shape's outside the layer above goes, in cells, where it is a crust: nothing of
 /// it lies deeper, and a part of the shape does. What lies beyond the example is neither.
 std::optional<float> crustDepth(const Shape& upper, const Shape& lower, bool wraps) {

@@ -326,7 +326,8 @@ class Regions {
       std::size_t changes = 0;
       for (std::size_t p = 0; p < map.count(); ++p) changes += best.data()[p] != map.data()[p];
       map = std::move(best);
-      if (static_cast<double>(changes) < options_.settled * static_cast<double>(map.count())) break;
+      const auto boundary = static_cast<double>(boundaryCellsOf(map, true));
+      if (static_cast<double>(changes) < options_.settled * boundary) break;
     }
   }
 

@@ -12,6 +12,7 @@
 #include "core/cells.h"
 #include "core/parallel.h"
 #include "core/simd.h"
+#include "maps/distance_transform.h"
 
 namespace exemplar {
 namespace {
@@ -112,12 +113,15 @@ void restoreClosed(const Shape& was, const ShapeLimits& limits, Shape& shape) {
       if (!limits.open->data()[p]) shape.data()[p] = was.data()[p];
 }
 
-/// The majority of the 3 x 3 (in space 3 x 3 x 3) cells: a shorter boundary.
-void smooth(Shape& shape) {
+/// The majority of the 3 x 3 (in space 3 x 3 x 3) cells: a shorter boundary. `wide`, flat shapes
+/// only: of the 5 x 5, nearer ones counting more, which goes on where that of 3 x 3 changes
+/// nothing.
+void smooth(Shape& shape, bool wide) {
   const bool flat = shape.size().z == 1;
   Array3D<std::uint8_t> sums = summedAlong(summedAlong(shape, 0), 1);
   if (!flat) sums = summedAlong(sums, 2);
-  const int most = flat ? 5 : 14;
+  if (wide) sums = summedAlong(summedAlong(sums, 0), 1);
+  const int most = wide ? 41 : flat ? 5 : 14;
   for (std::size_t p = 0; p < shape.count(); ++p) shape.data()[p] = sums.data()[p] >= most;
 }
 
@@ -128,9 +132,7 @@ void removeSpecks(Shape& shape, const ShapeExample& example, bool isPainted) {
   Shape without = shape;
   const auto limits = [&](const ShapeExample::Components& components) {
     ComponentLimits stay{.least = components.smallest};
-    if (!isPainted)
-      stay.most = static_cast<std::size_t>(
-          std::ceil(components.perCell * static_cast<double>(shape.count())));
+    if (!isPainted) stay.most = components.mostIn(shape.count());
     return stay;
   };
   removeSmall(without, limits(example.inside), limits(example.outside), true);
@@ -138,10 +140,69 @@ void removeSpecks(Shape& shape, const ShapeExample& example, bool isPainted) {
   if (left > 0 && left < static_cast<std::int64_t>(shape.count())) shape = std::move(without);
 }
 
+/// The radius of a ball of about so many cells.
+float radiusOf(std::uint32_t cells, bool flat) {
+  const double ofUnit = flat ? 3.1416 : 4.1888;
+  return static_cast<float>(std::pow(std::max(1u, cells) / ofUnit, flat ? 1 / 2.0 : 1 / 3.0) + 0.5);
+}
+
+/// Sets the cells of a ball, on the torus, as far as they may change.
+void placeBall(Shape& shape, const Vec3i& center, float radius, bool inside,
+               const ShapeLimits& limits) {
+  const int reach = static_cast<int>(radius), depth = shape.size().z == 1 ? 0 : reach;
+  const CellBox box{{-reach, -reach, -depth}, {reach + 1, reach + 1, depth + 1}};
+  forEachCell(box, [&](const Vec3i& step) {
+    const auto squared = static_cast<float>(step.x * step.x + step.y * step.y + step.z * step.z);
+    const std::size_t p = shape.index(wrappedPlace(center + step, shape.size()));
+    if (squared > radius * radius || !isOpen(limits, p)) return;
+    if (!inside || mayBeInside(limits, p)) shape.data()[p] = inside;
+  });
+}
+
+/// The cell that is farthest from the other side, of those that may change sides to `inside`, if it
+/// lies deeper than `deepest`.
+std::optional<Vec3i> tooDeep(const Array3D<float>& depths, float deepest, bool inside,
+                             const ShapeLimits& limits) {
+  std::optional<Vec3i> farthest;
+  std::size_t at = 0;
+  forEachCell(depths.size(), [&](const Vec3i& p) {
+    const std::size_t cell = at++;
+    const float depth = depths.data()[cell];
+    if (depth <= deepest || !std::isfinite(depth) || !isOpen(limits, cell)) return;
+    if (inside && !mayBeInside(limits, cell)) return;
+    deepest = depth;
+    farthest = p;
+  });
+  return farthest;
+}
+
+/// Where a shape, or what is around it, is deeper than it ever is in the example: begins a
+/// component of the other side there, as large as the example's smallest, if that fits and there
+/// may be more of them. Patches say nothing of what lies farther from a boundary than they reach.
+/// Flat shapes only: in space, where few levels have room for a patch, balls fuse by it.
+void breakUpDepths(Shape& shape, const ShapeExample& example, const ShapeLimits& limits) {
+  if (shape.size().z > 1) return;
+  constexpr float kRounding = 1;             // of where cells' centers lie, in the example and here
+  for (const bool inside : {true, false}) {  // the side that is begun
+    const ShapeExample::Components& begun = inside ? example.inside : example.outside;
+    const float deepest = (inside ? example.outside : example.inside).deepest + kRounding;
+    const float radius = radiusOf(begun.smallest, shape.size().z == 1);
+    if (!std::isfinite(deepest) || radius >= deepest) continue;
+    const std::size_t most = begun.mostIn(shape.count());
+    for (std::size_t count = componentSizes(shape, inside, true).size(); count < most; ++count) {
+      const Array3D<float> depths = distanceTo(inside ? shape : outsideOf(shape), true);
+      const std::optional<Vec3i> center = tooDeep(depths, deepest, inside, limits);
+      if (!center) break;
+      placeBall(shape, *center, radius, inside, limits);
+    }
+  }
+}
+
 /// One way to change a shape as votes want it.
 struct Adjustment {
   float threshold = 0;
   int smoothings = 0;
+  bool wide = false;  ///< of the smoothings
 };
 
 std::vector<Adjustment> adjustmentsFor(const ShapeOptions& options, float median, bool flat) {
@@ -149,14 +210,15 @@ std::vector<Adjustment> adjustmentsFor(const ShapeOptions& options, float median
   if (options.certainty == CertaintyKind::Area) {
     // The paper's interval, evenly in logarithms.
     for (int n = 0; n <= 20; ++n)
-      all.push_back({static_cast<float>(std::pow(10.0, -7 + n * 0.25)), 0});
+      all.push_back({static_cast<float>(std::pow(10.0, -7 + n * 0.25))});
     return all;
   }
   for (std::size_t n = 0; n < kThresholds.size(); n += flat ? 1 : 3)
     for (const int smoothings : {0, 1}) all.push_back({kThresholds[n] * median, smoothings});
   // Where patches disagree the boundary is too long even so.
   for (std::size_t n = 0; n < kThresholds.size(); n += flat ? 3 : 6)
-    for (const int smoothings : {2, 3}) all.push_back({kThresholds[n] * median, smoothings});
+    for (const int smoothings : {2, 3})
+      all.push_back({kThresholds[n] * median, flat ? 2 * smoothings - 3 : smoothings, flat});
   return all;
 }
 
@@ -182,7 +244,7 @@ Shape adjusted(const Shape& shape, const PatchVotes& votes, float median,
         errors[c] = std::abs(static_cast<double>(insideOf(changed) - target));
       } else {
         for (int n = 0; n < all[c].smoothings; ++n) {
-          smooth(changed);
+          smooth(changed, all[c].wide);
           restoreClosed(shape, limits, changed);
         }
         removeSpecks(changed, example, limits.target.has_value());
@@ -241,6 +303,10 @@ std::vector<Vec3i> servingCenters(std::vector<Vec3i> all, const Vec3i& size, con
   return all;
 }
 
+std::size_t ShapeExample::Components::mostIn(std::size_t cells) const {
+  return static_cast<std::size_t>(std::ceil(perCell * static_cast<double>(cells)));
+}
+
 ShapeExample shapeExample(const Shape& shape, const Shape* below, const Shape* unknown,
                           const ShapeOptions& options, const Random& random) {
   ShapeExample example;
@@ -254,9 +320,12 @@ ShapeExample shapeExample(const Shape& shape, const Shape* below, const Shape* u
       static_cast<double>(boundaryCount(shape, options.exampleWraps, &known)) / cells;
   const auto components = [&](bool inside) {
     const std::vector<std::uint32_t> sizes = componentSizes(shape, inside, options.exampleWraps);
+    const Array3D<float> depths =
+        distanceTo(inside ? outsideOf(shape) : shape, options.exampleWraps);
     return ShapeExample::Components{
         sizes.empty() ? 0 : *std::ranges::min_element(sizes),
-        static_cast<double>(sizes.size()) / static_cast<double>(shape.count())};
+        static_cast<double>(sizes.size()) / static_cast<double>(shape.count()),
+        *std::ranges::max_element(depths.values())};
   };
   example.inside = components(true);
   example.outside = components(false);
@@ -345,6 +414,8 @@ OptimizedShape optimizeShape(Shape start, const ShapeExample& example, const Sha
                                         static_cast<double>(n + 1) / options.iterations);
     part.report("matching boundaries", 0);
     const Random draws = random.fork(static_cast<std::uint64_t>(n));
+    if (!limits.target && options.certainty == CertaintyKind::Boundary)
+      breakUpDepths(shape, example, limits);
     PlacedPatches placed;
     placed.boundary = matchedCenters(boundaryOf(shape, true), size);
     if (limits.open) keepNearOpen(placed.boundary, *limits.open, options.patch);
@@ -364,9 +435,8 @@ OptimizedShape optimizeShape(Shape start, const ShapeExample& example, const Sha
     shape = std::move(best);
     result.placed = std::move(placed);
     ++result.iterations;
-    const std::int64_t open =
-        limits.open ? insideOf(*limits.open) : static_cast<std::int64_t>(shape.count());
-    if (static_cast<double>(changes) < options.settled * static_cast<double>(open)) break;
+    const auto boundary = static_cast<double>(boundaryCount(shape, true, limits.open));
+    if (static_cast<double>(changes) < options.settled * boundary) break;
   }
   progress.report("matching boundaries", 1);
   return result;

@@ -23,10 +23,11 @@ enum class CertaintyKind {
 };
 
 struct ShapeOptions {
-  int patch = 15;          ///< cells a side of a boundary patch, odd, 5..31; on every level
-  int levels = 5;          ///< resolutions, each half the one before, 1..7
-  int iterations = 10;     ///< on each level, at most, 1..50
-  double settled = 0.002;  ///< a level ends where less than this share of the cells changes
+  int patch = 15;       ///< cells a side of a boundary patch, odd, 5..31; on every level
+  int levels = 5;       ///< resolutions, each half the one before, 1..7
+  int iterations = 10;  ///< on each level, at most, 1..50
+  /// A level ends where fewer cells change than this share of those on the boundary.
+  double settled = 0.01;
   int turns = 4;  ///< orientations of patches: 1, 2 (0 and 180 degrees), 4, or 8 (mirrored)
   AssignmentKind assignment = AssignmentKind::Greedy;
   CertaintyKind certainty = CertaintyKind::Boundary;
@@ -42,11 +43,16 @@ struct ShapeExample {
   BoundaryPatches patches;  ///< around its boundary
   double area = 0;          ///< share of cells inside
   double boundary = 0;      ///< share of cells on the boundary
-  /// Components of what is inside, and of what is not: cells of the smallest, and how many there
-  /// are for each cell of the example.
+  /// Components of what is inside, and of what is not: cells of the smallest, how many there are
+  /// for each cell of the example, and how far, in cells, one of their cells lies at most from what
+  /// is not of them (infinite where there is nothing else).
   struct Components {
     std::uint32_t smallest = 0;
     double perCell = 0;
+    float deepest = 0;
+
+    /// How many a shape of so many cells may have.
+    std::size_t mostIn(std::size_t cells) const;
   } inside, outside;
 };
 /// At most so many boundary patches of an example are used, drawn at random from all.

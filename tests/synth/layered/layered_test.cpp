@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "maps/distance_transform.h"
 #include "measure/layers.h"
+#include "synth/layered/auction.h"
 #include "synth/layered/texture_by_numbers.h"
 #include "tests/progress_checks.h"
 #include "tests/synth/layered/layer_samples.h"
@@ -239,6 +240,33 @@ TEST(AssignPatches, ExactIsTheOptimumOfSmallInstances) {
   EXPECT_EQ(sum, least);
 }
 
+TEST(AssignPatches, AuctionAndPathsCostTheSame) {
+  // Few different costs tie often; many make long price wars.
+  for (std::uint64_t trial = 0; trial < 24; ++trial) {
+    const Random draws(trial);
+    const auto columns = 1 + draws.below(40, 1), rows = 1 + draws.below(150, 2);
+    Grid<std::uint16_t> costs(static_cast<int>(columns), static_cast<int>(rows));
+    for (std::size_t p = 0; p < costs.count(); ++p)
+      costs[p] = static_cast<std::uint16_t>(draws.below(trial % 2 ? 226 : 6, p, 3));
+    const std::vector<std::uint32_t> uses = fairUses(rows, columns, draws);
+    const auto sold = assignByAuction(costs, uses);
+    if (!sold) {  // where one column alone serves, there is no second price
+      EXPECT_EQ(columns - std::ranges::count(uses, 0u), 1) << trial;
+      continue;
+    }
+    std::vector<std::uint32_t> used(columns);
+    const auto costOf = [&](const std::vector<std::uint32_t>& columnOf) {
+      std::int64_t sum = 0;
+      for (std::uint32_t row = 0; row < rows; ++row)
+        sum += costs(static_cast<int>(columnOf[row]), static_cast<int>(row));
+      return sum;
+    };
+    for (const std::uint32_t column : *sold) ++used[column];
+    EXPECT_EQ(used, uses) << trial;
+    EXPECT_EQ(costOf(*sold), costOf(assignByPaths(costs, uses))) << trial;
+  }
+}
+
 // --- Shapes ------------------------------------------------------------------------------------
 
 TEST(OptimizeShape, LeavesTheExampleItselfAsItIs) {
@@ -250,6 +278,21 @@ TEST(OptimizeShape, LeavesTheExampleItselfAsItIs) {
   EXPECT_EQ(made.shape, shape);
   EXPECT_EQ(made.iterations, 1);
   for (const BoundaryMatch& match : made.placed.matches) EXPECT_EQ(match.distance, 0);
+}
+
+TEST(OptimizeShape, BeginsShapesWhereTheExampleIsNeverAsEmpty) {
+  // Discs in the left half alone: no boundary patch reaches the middle of the right one.
+  const Shape example = layerShape(discs(120, 120, 6, 1), 2);
+  Shape start(Vec3i{160, 120, 1});
+  forEachCell(start.size(), [&](const Vec3i& p) { start[p] = p.x < 80 && example[p]; });
+  const auto deepest = [](const Shape& shape) {
+    return *std::ranges::max_element(distanceTo(shape, true).values());
+  };
+  ASSERT_GT(deepest(start), 30);
+  const ShapeExample likeness = shapeExample(example, nullptr, nullptr, {}, Random(1));
+  const OptimizedShape made = optimizeShape(start, likeness, {}, {}, Random(2));
+  // Where the gap was there are discs; what remains has no room for one more.
+  EXPECT_LT(deepest(made.shape), 2 * deepest(example));
 }
 
 TEST(SetArea, AddsAndTakesExactlyAndStaysInTheMask) {
@@ -585,6 +628,31 @@ TEST(MeasureLayers, TellsNoiseStripesAndCopiesApart) {
   const LayersLikeness tiled = measureLayers(map, true, twice);
   EXPECT_GT(*tiled.repeated, 0.5);
   EXPECT_LT(*tiled.exampleRepeated, 0.2);
+}
+
+TEST(MeasureLayers, FindsContoursThatWereCopiedAndTurned) {
+  const LayerVolume map = noiseLayers(192, 192, 2, 2), other = noiseLayers(192, 192, 2, 3);
+  const auto lowest = [&](const LayerVolume& result) {
+    return measureLayers(map, false, result).layers[0];
+  };
+  const LayerLikeness independent = lowest(other);
+  // A square of the example, turned by a quarter, in a map of its own.
+  constexpr int kSide = 96;
+  LayerVolume planted = other;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) planted(40 + x, 40 + y, 0) = map(30 + y, 125 - x, 0);
+  std::int64_t copied = 0;  // of the boundary inside the square, where patches are whole
+  for (const Vec3i& p : boundaryOf(layerShape(planted, 2), true))
+    copied += std::min(p.x, p.y) >= 48 && std::max(p.x, p.y) < 128;
+  const LayerLikeness withCopy = lowest(planted);
+  // The square may hold several contours.
+  EXPECT_GT(*withCopy.longestRun, copied / 3);
+  EXPECT_GT(*withCopy.longestRun, 2 * *independent.longestRun);
+  EXPECT_EQ(*lowest(map).longestRun > *withCopy.longestRun, true);
+  // One small square of it again and again: few places serve all.
+  LayerVolume few(map.size());
+  forEachCell(few.size(), [&](const Vec3i& p) { few[p] = map(60 + p.x % 32, 60 + p.y % 32, 0); });
+  EXPECT_LT(*lowest(few).usage, 0.5 * *independent.usage);
 }
 
 }  // namespace
