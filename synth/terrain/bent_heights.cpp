@@ -99,6 +99,18 @@ double heightAt(const Grid<float>& heights, Place at) {
          fy * ((1 - fx) * heights(x0, y1) + fx * heights(x1, y1));
 }
 
+/// The same on half the resolution: the place of the first of 2 x 2 samples, halved.
+Grid<Pixel> halvedPlaces(const Grid<Pixel>& from) {
+  Grid<Pixel> half(from.width() / 2, from.height() / 2);
+  for (int y = 0; y < half.height(); ++y) {
+    for (int x = 0; x < half.width(); ++x) {
+      const Pixel place = from(2 * x, 2 * y);
+      half(x, y) = {place.x >> 1, place.y >> 1};  // down, also beside the map
+    }
+  }
+  return half;
+}
+
 }  // namespace
 
 Grid<float> bentHalf(const Grid<float>& heights, const Bend& bend) {
@@ -122,16 +134,22 @@ Grid<float> bentHalf(const Grid<float>& heights, const Bend& bend) {
   return half;
 }
 
-Grid<std::uint8_t> bentKinds(const Grid<std::uint8_t>& kinds, const Bend& bend) {
-  const Bending bending(kinds.width(), kinds.height(), bend);
-  Grid<std::uint8_t> bent(bending.size().x, bending.size().y);
-  for (int y = 0; y < bent.height(); ++y) {
-    for (int x = 0; x < bent.width(); ++x) {
+Grid<Pixel> bentPlaces(Pixel size, const Bend& bend) {
+  const Bending bending(size.x, size.y, bend);
+  Grid<Pixel> from(bending.size().x, bending.size().y);
+  for (int y = 0; y < from.height(); ++y) {
+    for (int x = 0; x < from.width(); ++x) {
       const Place at = bending.from(x + 0.5, y + 0.5);
-      const int u = static_cast<int>(std::floor(at.x)), v = static_cast<int>(std::floor(at.y));
-      if (kinds.contains(u, v)) bent(x, y) = kinds(u, v);
+      from(x, y) = {static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y))};
     }
   }
+  return from;
+}
+
+Grid<std::uint8_t> bentKinds(const Grid<std::uint8_t>& kinds, const Grid<Pixel>& from) {
+  Grid<std::uint8_t> bent(from.width(), from.height());
+  for (std::size_t s = 0; s < bent.count(); ++s)
+    if (kinds.contains(from[s].x, from[s].y)) bent[s] = kinds(from[s].x, from[s].y);
   return bent;
 }
 
@@ -162,8 +180,10 @@ void addBentCopies(std::vector<HeightLevel>& pyramid, std::size_t examples,
     for (const Bend& bend : bends) {
       if (pyramid.back().sources.size() >= kMostSources) return;
       Grid<float> heights = bentHalf(pyramid[begin - 1].sources[e].heights, bend);
+      const Grid<float>& of = pyramid[begin].sources[e].heights;
+      Grid<Pixel> from = bentPlaces({of.width(), of.height()}, bend);
       Grid<std::uint8_t> water;
-      if (!pyramid.front().water.empty()) water = bentKinds(pyramid[begin].water[e], bend);
+      if (!pyramid.front().water.empty()) water = bentKinds(pyramid[begin].water[e], from);
       if (heightSource(heights).places == 0) continue;
       for (std::size_t l = begin; l < pyramid.size(); ++l) {
         HeightLevel& level = pyramid[l];
@@ -172,8 +192,12 @@ void addBentCopies(std::vector<HeightLevel>& pyramid, std::size_t examples,
           half = halved(heights, false);
           level.details.push_back(detailOf(heights, half));
         }
+        Grid<Pixel> halfFrom = halvedPlaces(from);
         level.sources.push_back(heightSource(std::move(heights)));
+        level.sources.back().copyOf = static_cast<std::uint8_t>(e);
+        level.sources.back().from = std::move(from);
         heights = std::move(half);
+        from = std::move(halfFrom);
         if (water.empty()) continue;
         Grid<std::uint8_t> halfWater = halvedWater(water);
         level.water.push_back(std::move(water));

@@ -27,9 +27,11 @@ struct Bend {
 
 /// Heights on half their resolution, turned and bent; NaN beside what they cover. O(samples).
 Grid<float> bentHalf(const Grid<float>& heights, const Bend& bend);
-/// The same of what kind each sample is: that of the nearest one, 0 beside what they cover. `kinds`
-/// are on the resolution of the result.
-Grid<std::uint8_t> bentKinds(const Grid<std::uint8_t>& kinds, const Bend& bend);
+/// Which sample of a map of `size` each one of a turned and bent map comes from; beside what that
+/// covers, one that would lie beside the map.
+Grid<Pixel> bentPlaces(Pixel size, const Bend& bend);
+/// What kind each sample is, as it is `from` a map: 0 beside that.
+Grid<std::uint8_t> bentKinds(const Grid<std::uint8_t>& kinds, const Grid<Pixel>& from);
 
 /// The ways in which examples whose patches are used in the orientations `turns` (of `turnedStep`)
 /// may be turned and bent: by any angle where they may be turned by quarters; otherwise by no more

@@ -34,6 +34,10 @@ struct HeightSource {
   /// and costs at least what these differ by.
   Grid<float> blocks;
   std::size_t places = 0;  ///< how many patches are whole
+  /// Of a copy that was turned and bent: the example that it is of, and which sample of that, on
+  /// this resolution, each sample comes from, if any. Without samples for an example itself.
+  std::uint8_t copyOf = 0;
+  Grid<Pixel> from;
 };
 /// A resolution, with all else found.
 HeightSource heightSource(Grid<float> heights);

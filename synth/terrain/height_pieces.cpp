@@ -21,6 +21,8 @@ constexpr int kNear = 2;
 constexpr int kTurns = (kNear + 1) * (kNear + 1);
 /// How near a place is to another's continuation, to be its continuation; coarse samples.
 constexpr int kContinues = 3;
+/// Points of a patch at which that is looked at, and which of them is its middle.
+constexpr int kPoints = 9, kMiddle = 4;
 /// Of the random places, how many are bettered step by step.
 constexpr std::size_t kBettered = 6;
 /// How far pieces may reach, of their distance.
@@ -41,6 +43,7 @@ class Chooser {
         options_(options),
         pieces_(pieces),
         random_(pieceRandom(options)),
+        usable_(options.sources == 0 ? coarse.size() : options.sources),
         firsts_(pieces.middles.size()),
         windows_(pieces.middles.size()) {}
 
@@ -48,7 +51,7 @@ class Chooser {
     const Pixel first = windowOf(piece);
     HeightQuery query;
     query.take(heights_, first);
-    const std::vector<HeightOrigin> taken = continuations(piece, first);
+    const Taken taken = takenAround(piece, first);
     std::array<HeightMatch, kBettered> best;
     for (HeightMatch& match : best) match.cost = std::numeric_limits<float>::infinity();
     for (int n = 0; n < options_.tries; ++n) {
@@ -100,9 +103,7 @@ class Chooser {
     };
     HeightMatch match;
     match.example = static_cast<std::uint8_t>(
-        coarse_.size() == 1
-            ? 0
-            : random_.below(static_cast<std::uint32_t>(coarse_.size()), piece, draw + 1));
+        usable_ == 1 ? 0 : random_.below(static_cast<std::uint32_t>(usable_), piece, draw + 1));
     match.turn = static_cast<std::uint8_t>(
         options_.turns[static_cast<std::size_t>(pick(bits, options_.turns.size()))]);
     const Grid<std::uint8_t>& whole = coarse_[match.example].whole;
@@ -123,8 +124,78 @@ class Chooser {
                       static_cast<float>(options_.slopes), most);
   }
 
-  void better(HeightQuery& query, const std::vector<HeightOrigin>& taken,
-              HeightMatch& match) const {
+  /// A sample of an example itself; of none for what lies beside a bent copy.
+  struct Place {
+    int example = -1;
+    Pixel at;
+
+    bool isNear(const Place& other) const {
+      return example >= 0 && example == other.example &&
+             std::abs(at.x - other.at.x) <= kContinues && std::abs(at.y - other.at.y) <= kContinues;
+    }
+  };
+  Place placeOf(const HeightOrigin& origin) const {
+    const HeightSource& source = coarse_[origin.example];
+    if (source.from.empty()) return {origin.example, {origin.x, origin.y}};
+    if (!source.from.contains(origin.x, origin.y)) return {};
+    return {source.copyOf, source.from(origin.x, origin.y)};
+  }
+
+  /// Places that a piece's coarse patch must not have: at its middle, and at points of it.
+  struct Taken {
+    std::array<Place, kPoints> points;
+    std::vector<Place> middle;
+  };
+  /// The steps from the first sample of a patch to the points that are looked at.
+  static Pixel pointOf(int n) {
+    return {n % 3 * (kHeightPatch - 1) / 2, n / 3 * (kHeightPatch - 1) / 2};
+  }
+
+  /// What the coarse patch of a piece would come from if it went on with what lies there, or with a
+  /// piece near it.
+  Taken takenAround(std::uint32_t piece, Pixel first) const {
+    Taken taken;
+    for (int n = 0; n < kPoints; ++n) {
+      const Pixel step = pointOf(n);
+      taken.points[static_cast<std::size_t>(n)] =
+          placeOf(origins_[origins_.wrapped(first.x + step.x, first.y + step.y)]);
+    }
+    const Pixel middle = pointOf(kMiddle);
+    const int column = static_cast<int>(piece) % pieces_.columns;
+    const int row = static_cast<int>(piece) / pieces_.columns;
+    for (int dy = -kNear; dy <= kNear; ++dy) {
+      for (int dx = -kNear; dx <= kNear; ++dx) {
+        int c = column + dx, r = row + dy;
+        Pixel offset{0, 0};
+        if (options_.wrapsX && c < 0) c += pieces_.columns, offset.x = -heights_.width();
+        if (options_.wrapsX && c >= pieces_.columns)
+          c -= pieces_.columns, offset.x = heights_.width();
+        if (options_.wrapsY && r < 0) r += pieces_.rows, offset.y = -heights_.height();
+        if (options_.wrapsY && r >= pieces_.rows) r -= pieces_.rows, offset.y = heights_.height();
+        if (c < 0 || r < 0 || c >= pieces_.columns || r >= pieces_.rows) continue;
+        const auto other = static_cast<std::uint32_t>(r * pieces_.columns + c);
+        if (turnOf(other) >= turnOf(piece)) continue;
+        const Pixel window = windows_[other];
+        taken.middle.push_back(
+            placeOf(stepped(firsts_[other], {first.x + middle.x - window.x - offset.x,
+                                             first.y + middle.y - window.y - offset.y})));
+      }
+    }
+    return taken;
+  }
+
+  bool isTaken(const HeightMatch& match, const Taken& taken) const {
+    const HeightOrigin first = originOfFirst(match);
+    for (int n = 0; n < kPoints; ++n) {
+      if (placeOf(stepped(first, pointOf(n))).isNear(taken.points[static_cast<std::size_t>(n)]))
+        return true;
+    }
+    const Place middle = placeOf(stepped(first, pointOf(kMiddle)));
+    return std::ranges::any_of(taken.middle,
+                               [&](const Place& other) { return middle.isNear(other); });
+  }
+
+  void better(HeightQuery& query, const Taken& taken, HeightMatch& match) const {
     for (int step = 4; step >= 1; step /= 2) {
       for (bool moved = true; moved;) {
         moved = false;
@@ -145,46 +216,6 @@ class Chooser {
     }
   }
 
-  /// What the coarse patch of a piece would come from if it went on with what lies there, or with a
-  /// piece near it.
-  std::vector<HeightOrigin> continuations(std::uint32_t piece, Pixel first) const {
-    std::vector<HeightOrigin> taken;
-    for (int j = 0; j <= 2; ++j) {
-      for (int i = 0; i <= 2; ++i) {
-        const Pixel step{i * (kHeightPatch - 1) / 2, j * (kHeightPatch - 1) / 2};
-        taken.push_back(stepped(origins_[origins_.wrapped(first.x + step.x, first.y + step.y)],
-                                {-step.x, -step.y}));
-      }
-    }
-    const int column = static_cast<int>(piece) % pieces_.columns;
-    const int row = static_cast<int>(piece) / pieces_.columns;
-    for (int dy = -kNear; dy <= kNear; ++dy) {
-      for (int dx = -kNear; dx <= kNear; ++dx) {
-        int c = column + dx, r = row + dy;
-        Pixel offset{0, 0};
-        if (options_.wrapsX && c < 0) c += pieces_.columns, offset.x = -heights_.width();
-        if (options_.wrapsX && c >= pieces_.columns)
-          c -= pieces_.columns, offset.x = heights_.width();
-        if (options_.wrapsY && r < 0) r += pieces_.rows, offset.y = -heights_.height();
-        if (options_.wrapsY && r >= pieces_.rows) r -= pieces_.rows, offset.y = heights_.height();
-        if (c < 0 || r < 0 || c >= pieces_.columns || r >= pieces_.rows) continue;
-        const auto other = static_cast<std::uint32_t>(r * pieces_.columns + c);
-        if (turnOf(other) >= turnOf(piece)) continue;
-        taken.push_back(stepped(firsts_[other], {first.x - windows_[other].x - offset.x,
-                                                 first.y - windows_[other].y - offset.y}));
-      }
-    }
-    return taken;
-  }
-
-  static bool isTaken(const HeightMatch& match, const std::vector<HeightOrigin>& taken) {
-    const HeightOrigin first = originOfFirst(match);
-    return std::ranges::any_of(taken, [&](const HeightOrigin& other) {
-      return other.example == first.example && other.turn == first.turn &&
-             std::abs(other.x - first.x) <= kContinues && std::abs(other.y - first.y) <= kContinues;
-    });
-  }
-
   /// What a sample comes from where the coarse patch with first sample `first` comes from `match`.
   static HeightOrigin fineOrigin(const HeightMatch& match, Pixel first, Pixel at) {
     constexpr int kLast = 2 * kHeightPatch - 1;
@@ -203,6 +234,7 @@ class Chooser {
   const PieceOptions& options_;
   HeightPieces& pieces_;
   Random random_;
+  std::size_t usable_;                // sources, the first ones
   std::vector<HeightOrigin> firsts_;  // what the first samples of the coarse patches come from
   std::vector<Pixel> windows_;        // which samples these are
 };

@@ -24,10 +24,11 @@
 namespace exemplar {
 
 struct PieceOptions {
-  int size = 12;           ///< distance of pieces' middles, samples; >= kHeightPatch
-  double meanCost = 0.05;  ///< what the difference of mean heights counts
-  double slopes = 4;       ///< what differences of steps count
-  int tries = 1000;        ///< random places that each piece looks at
+  int size = 9;             ///< distance of pieces' middles, samples; >= kHeightPatch
+  std::size_t sources = 0;  ///< only so many of the sources, the first ones, are used; 0: all
+  double meanCost = 0.05;   ///< what the difference of mean heights counts
+  double slopes = 4;        ///< what differences of steps count
+  int tries = 1000;         ///< random places that each piece looks at
   std::uint64_t seed = 0;
   std::uint64_t level = 0;    ///< which resolution it is: each draws other numbers
   std::vector<int> turns{0};  ///< of `turnedStep`: the orientations in which places are used
@@ -52,8 +53,9 @@ struct HeightPieces {
 };
 
 /// Chooses pieces for a result of `size`, whose heights and origins on half the resolution are
-/// known, by the examples on half the resolution. No piece goes on with the place from which the
-/// coarser heights come, nor with a neighbor's. Time grows with the pieces; the same at any number
+/// known, by the examples on half the resolution. No piece has at its middle, in whatever
+/// orientation or bent copy, the place of an example from which the coarser heights come, or one
+/// with which a neighbor would go on. Time grows with the pieces; the same at any number
 /// of threads. Throws `Cancelled`.
 HeightPieces choosePieces(std::span<const HeightSource> coarse, const Grid<float>& heights,
                           const Grid<HeightOrigin>& origins, Pixel size,

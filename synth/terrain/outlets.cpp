@@ -226,12 +226,36 @@ class Outlets {
     return hollows;
   }
 
-  /// Finds the hollows that stay.
+  /// Of each sample below its spill `level`, the lowest one that drains through its hollow from
+  /// beyond that; `order` is that in which the samples were reached.
+  std::vector<float> lowestUpstream(const std::vector<float>& level,
+                                    const std::vector<std::uint32_t>& order) const {
+    const float none = std::numeric_limits<float>::infinity();
+    std::vector<float> all(heights_.values().begin(), heights_.values().end());
+    std::vector<float> beyond(all.size(), none);
+    for (std::size_t n = order.size(); n-- > 0;) {
+      const std::uint32_t s = order[n];
+      if (toward_[s] == kOutlet) continue;
+      std::uint32_t down = s;
+      neighbor(s, toward_[s], down);
+      all[down] = std::min(all[down], all[s]);
+      if (!(level[down] > heights_[down])) continue;
+      const bool within = level[s] > heights_[s];
+      beyond[down] = std::min(beyond[down], within ? beyond[s] : all[s]);
+    }
+    return beyond;
+  }
+
+  /// Finds the hollows that stay: none through which lower land drains, which would have to be
+  /// lifted above their water.
   void keepHollows() {
     std::vector<float> level(heights_.values().begin(), heights_.values().end());
+    std::vector<std::uint32_t> order;
+    order.reserve(level.size());
     flood([&](std::uint32_t n,
               std::uint32_t from) { return level[n] = std::max(level[n], level[from]); },
-          [](std::uint32_t) {});
+          [&](std::uint32_t s) { order.push_back(s); });
+    const std::vector<float> upstream = lowestUpstream(level, order);
     std::vector<std::vector<std::uint32_t>> hollows = hollowsBelow(level);
     // From the largest size down; those of one size in an order without direction.
     const auto sizeOf = [](const auto& hollow) {
@@ -252,6 +276,9 @@ class Outlets {
       for (; next > sizeOf(hollow); --next)
         left += options_.kept[next - 1] * static_cast<double>(level.size());
       if (static_cast<double>(hollow.size()) > left) continue;
+      // Where all stay, none is lifted.
+      const auto drainsLower = [&](std::uint32_t s) { return upstream[s] < level[s]; };
+      if (all > most && std::ranges::any_of(hollow, drainsLower)) continue;
       left -= static_cast<double>(hollow.size());
       for (const std::uint32_t s : hollow) {
         kept_[s] = 1;
@@ -359,13 +386,13 @@ class Outlets {
     };
     flood(enter, [&](std::uint32_t s) {
       if (!wantsOutlet(s)) return;
-      const std::optional<float> step = stepFrom(s);
-      blocked += !step;
+      const std::optional<Bed> bed = bedFrom(s);
+      blocked += !bed;
       float target = heights_[s];
       bool any = false;
       for (std::uint32_t at = s; toward_[at] != kOutlet;) {
         neighbor(at, toward_[at], at);
-        target -= step.value_or(leastStep());
+        target = bed ? std::max(target - bed->step, bed->least) : target - leastStep();
         if (heights_[at] <= target || isHeld(at)) break;
         heights_[at] = target;
         changed.push_back(at);
@@ -376,22 +403,28 @@ class Outlets {
     return blocked;
   }
 
-  /// By how much the bed of a cut falls in each step: less where what is held on its way is not low
-  /// enough; nothing where that is higher.
-  std::optional<float> stepFrom(std::uint32_t s) const {
-    float step = std::max(static_cast<float>(options_.fall), leastStep());
-    if (options_.outlets.empty()) return step;
+  /// The bed of a cut: by how much it falls in each step, and no lower than to where.
+  struct Bed {
+    float step, least = -std::numeric_limits<float>::infinity();
+  };
+  /// That of a cut from a pit: it falls by less where what is held on its way is not low enough;
+  /// none where that is higher.
+  std::optional<Bed> bedFrom(std::uint32_t s) const {
+    Bed bed{std::max(static_cast<float>(options_.fall), leastStep())};
+    if (options_.outlets.empty()) return bed;
     int steps = 0;
     for (std::uint32_t at = s; toward_[at] != kOutlet;) {
       neighbor(at, toward_[at], at);
       ++steps;
-      if (heights_[at] <= heights_[s] - static_cast<float>(steps) * step) break;
+      if (heights_[at] <= heights_[s] - static_cast<float>(steps) * bed.step) break;
       if (!isHeld(at)) continue;
       if (heights_[at] > heights_[s]) return std::nullopt;
-      step = std::min(step, (heights_[s] - heights_[at]) / static_cast<float>(steps));
+      // Steps add up to a little more or less than what they are shares of.
+      bed = {std::min(bed.step, (heights_[s] - heights_[at]) / static_cast<float>(steps)),
+             heights_[at]};
       break;
     }
-    return step;
+    return bed;
   }
 
   bool isPit(std::uint32_t s) const {

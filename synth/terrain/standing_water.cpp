@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "maps/drainage.h"
+#include "maps/halved.h"
 
 namespace exemplar {
 namespace {
@@ -41,6 +42,19 @@ std::vector<std::size_t> connected(int width, int height, std::size_t from,
     }
   }
   return found;
+}
+
+/// Adds the connected hollows of a map that says which share of each sample lies in one: how many
+/// samples of the finest resolution those of each size cover.
+void addHollows(const Grid<float>& covered, double samples, Hollows& hollows) {
+  // As if they were filled up to 1.
+  Grid<float> level(covered.width(), covered.height());
+  for (std::size_t s = 0; s < covered.count(); ++s) level[s] = covered[s] >= 0.5f ? 1 : 0;
+  for (const Depression& hollow : depressions(Grid<float>(level.width(), level.height()), level)) {
+    const std::size_t size = static_cast<std::size_t>(std::bit_width(hollow.cells)) - 1;
+    if (size >= hollows.bySize.size()) hollows.bySize.resize(size + 1);
+    hollows.bySize[size] += samples * static_cast<double>(hollow.cells);
+  }
 }
 
 }  // namespace
@@ -165,21 +179,26 @@ WaterBodies settleWater(Grid<float>& heights, const Grid<HeightOrigin>& origins,
   return settled;
 }
 
-Hollows hollowsOf(std::span<const Grid<float>> maps, const Progress& progress) {
-  Hollows hollows;
-  std::size_t all = 0;
+std::vector<Hollows> hollowsOf(std::span<const Grid<float>> maps, int levels,
+                               const Progress& progress) {
+  std::vector<Hollows> hollows(static_cast<std::size_t>(levels));
+  double all = 0;
   for (const Grid<float>& heights : maps) {
     const Drainage drainage = drain(heights, progress);
-    all += drainage.order.size();
-    for (const Depression& depression : depressions(heights, drainage.levels)) {
-      const std::size_t size = static_cast<std::size_t>(std::bit_width(depression.cells)) - 1;
-      if (size >= hollows.bySize.size()) hollows.bySize.resize(size + 1);
-      hollows.bySize[size] += static_cast<double>(depression.cells);
+    all += static_cast<double>(drainage.order.size());
+    Grid<float> covered(heights.width(), heights.height());
+    for (std::size_t s = 0; s < covered.count(); ++s)
+      covered[s] = drainage.levels[s] > heights[s] ? 1 : 0;
+    double samples = 1;  // of the maps, in one of the resolution
+    for (Hollows& level : hollows) {
+      addHollows(covered, samples, level);
+      if (std::min(covered.width(), covered.height()) < 2) break;
+      covered = halved(covered, false);
+      samples *= 4;
     }
   }
-  for (double& samples : hollows.bySize) {
-    samples /= static_cast<double>(all);
-    hollows.share += samples;
+  for (Hollows& level : hollows) {
+    for (double& share : level.bySize) level.share += share /= all;
   }
   return hollows;
 }

@@ -47,6 +47,10 @@ struct Hollows {
   /// The same by size: in those of 1 sample, of 2 or 3, of 4 to 7, ...
   std::vector<double> bySize;
 };
-Hollows hollowsOf(std::span<const Grid<float>> maps, const Progress& progress = {});
+/// Of maps, on `levels` (>= 1) resolutions, the finest first: coarser ones have those that cover
+/// half of a sample or more. What lies low there beside them is no hollow: means over samples close
+/// the narrow ways by which it drains.
+std::vector<Hollows> hollowsOf(std::span<const Grid<float>> maps, int levels = 1,
+                               const Progress& progress = {});
 
 }  // namespace exemplar

@@ -199,17 +199,17 @@ class Synthesis {
       origins = field.origins(progress);
       heights = copied(level, origins);
     } else {
-      pieces = choosePieces(
-          std::span(pyramid_[static_cast<std::size_t>(l + 1)].sources).first(level.sources.size()),
-          heights, origins, size,
-          {.size = options_.piece,
-           .meanCost = kFinerLevel,
-           .seed = seed_,
-           .level = static_cast<std::uint64_t>(l),
-           .turns = turns_,
-           .wrapsX = options_.wrapsX,
-           .wrapsY = options_.wrapsY},
-          progress);
+      pieces =
+          choosePieces(pyramid_[static_cast<std::size_t>(l + 1)].sources, heights, origins, size,
+                       {.size = options_.piece,
+                        .sources = level.sources.size(),
+                        .meanCost = kFinerLevel,
+                        .seed = seed_,
+                        .level = static_cast<std::uint64_t>(l),
+                        .turns = turns_,
+                        .wrapsX = options_.wrapsX,
+                        .wrapsY = options_.wrapsY},
+                       progress);
       field.begin(pieces, level.sources);
       origins = field.origins(progress);
       heights = refined(heights, origins, level);

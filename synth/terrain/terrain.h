@@ -56,7 +56,7 @@ struct TerrainSynthesisOptions {
   int rounds = 3;  ///< of matching and voting on each resolution, 1..50
   /// About the width of the pieces that are taken from one place, samples of each resolution:
   /// larger ones are more like the examples, and recognized; 8..24.
-  int piece = 12;
+  int piece = 9;
   /// Cut no outlets. Otherwise a result has at most 1.5 times as many hollows as its examples, none
   /// where fewer than 2 % of their samples lie in some.
   bool keepsHollows = false;

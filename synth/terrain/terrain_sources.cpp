@@ -89,14 +89,9 @@ TerrainSources terrainSources(std::span<const Grid<float>> examples,
                                           static_cast<double>(example.count())));
     }
     from.fall = kFallShare * streamFall(examples, progress.part(0, 0.6)) / larger;
-    from.hollows.resize(static_cast<std::size_t>(from.levels));
-    for (std::size_t l = 0; l < from.hollows.size(); ++l) {
-      std::vector<Grid<float>> maps;
-      for (const HeightSource& source : from.pyramid[l].sources) maps.push_back(source.heights);
-      from.hollows[l] = hollowsOf(maps, l == 0 ? progress.part(0.6, 0.9) : progress.part(0.9, 0.9));
-      if (l == 0 && from.hollows[l].share < kNaturalHollows) break;
-      for (double& share : from.hollows[l].bySize) share *= kMoreHollows;
-    }
+    from.hollows = hollowsOf(examples, from.levels, progress.part(0.6, 0.9));
+    for (Hollows& hollows : from.hollows)
+      for (double& share : hollows.bySize) share *= kMoreHollows;
   }
   addBentCopies(from.pyramid, from.examples,
                 bendsOf(examples, from.turns, !options.turns.empty(), options.seed));

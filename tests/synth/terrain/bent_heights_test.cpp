@@ -104,7 +104,7 @@ TEST(BentHeights, KeepHolesAndKinds) {
     for (int x = 15; x < 25; ++x) kinds(x, y) = 1;
   const Bend bend{.angle = 0.5, .strain = 0.2, .seed = 9};
   const Grid<float> bent = bentHalf(heights, bend);
-  const Grid<std::uint8_t> where = bentKinds(kinds, bend);
+  const Grid<std::uint8_t> where = bentKinds(kinds, bentPlaces({40, 40}, bend));
   ASSERT_TRUE(bent.sameSize(where));
   std::size_t marked = 0;
   for (std::size_t s = 0; s < bent.count(); ++s) {

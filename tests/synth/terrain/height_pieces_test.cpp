@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
+#include "maps/halved.h"
+#include "synth/terrain/bent_heights.h"
 #include "tests/synth/terrain/height_samples.h"
 #include "tests/threads.h"
 
@@ -83,6 +86,43 @@ TEST(HeightPieces, NoneGoesOnWithWhatLiesThereOrWithAnother) {
       EXPECT_FALSE(goesOn(pieces.origins[q], pieces.origins[p], step, 4)) << p << " " << q;
     }
   }
+}
+
+TEST(HeightPieces, NoneIsThePlaceOfWhichABentCopyLiesThere) {
+  const Grid<float> fine = ridges(120, 100, 5);
+  const Bend bend{.angle = 0.1, .strain = 0.05, .seed = 2};
+  HeightSource sources[] = {heightSource(halved(fine, false)), heightSource(bentHalf(fine, bend))};
+  sources[1].from = bentPlaces({60, 50}, bend);
+  const Grid<Pixel> from = sources[1].from;
+  // The result's coarse heights are a part of the copy.
+  const Pixel corner{8, 8};
+  Grid<float> heights(36, 30);
+  Grid<HeightOrigin> origins(36, 30);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 36; ++x) {
+      origins(x, y) = {static_cast<std::int16_t>(x + corner.x),
+                       static_cast<std::int16_t>(y + corner.y), 1, 0};
+      heights(x, y) = sources[1].heights(x + corner.x, y + corner.y);
+      ASSERT_FALSE(std::isnan(heights(x, y)));
+    }
+  }
+  const auto same = [&] {
+    const HeightPieces pieces =
+        choosePieces(sources, heights, origins, {72, 60}, {.sources = 1, .turns = {0, 5}}, {});
+    int count = 0;
+    for (std::size_t p = 0; p < pieces.middles.size(); ++p) {
+      const Pixel at = pieces.middles[p];
+      const HeightOrigin& origin = pieces.origins[p];
+      EXPECT_EQ(origin.example, 0);
+      const Pixel place = from(at.x / 2 + corner.x, at.y / 2 + corner.y);
+      count += std::abs(origin.x / 2 - place.x) <= 1 && std::abs(origin.y / 2 - place.y) <= 1;
+    }
+    return count;
+  };
+  EXPECT_EQ(same(), 0);
+  // Where it is not known what the copy is of, its places are the nearest.
+  sources[1].from = {};
+  EXPECT_GT(same(), 5);
 }
 
 TEST(HeightPieces, AreLikeWhatLiesThere) {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "maps/drainage.h"
+#include "maps/halved.h"
 #include "synth/terrain/outlets.h"
 #include "synth/terrain/terrain.h"
 #include "tests/synth/terrain/height_samples.h"
@@ -89,9 +90,24 @@ TEST(CutOutlets, GivesALakeAnOutletAndLeavesItFlat) {
   EXPECT_EQ(cutOutlets(island, {}, {.fill = 0}, &water).outlets, 0);
 }
 
+TEST(Hollows, OnCoarserResolutionsAreThoseOfTheFinest) {
+  // A basin whose way out is one sample wide, and a pit without one.
+  Grid<float> heights(64, 64, 100);
+  for (int y = 8; y < 28; ++y)
+    for (int x = 8; x < 28; ++x) heights(x, y) = 50;
+  for (int x = 0; x < 8; ++x) heights(x, 17) = static_cast<float>(40 + x);
+  for (int y = 32; y < 48; ++y)
+    for (int x = 32; x < 48; ++x) heights(x, y) = 60;
+  const double pit = 16.0 * 16 / (64 * 64);
+  for (const Hollows& hollows : hollowsOf({&heights, 1}, 4)) EXPECT_DOUBLE_EQ(hollows.share, pit);
+  // Means close the way out.
+  const Grid<float> half = halved(heights, false);
+  EXPECT_GT(hollowsOf({&half, 1}).front().share, 2 * pit);
+}
+
 TEST(CutOutlets, KeepsHollowsUpToTheirSharesBySize) {
   const Grid<float> rough = ridges(120, 100, 3);
-  const Hollows all = hollowsOf({&rough, 1});
+  const Hollows all = hollowsOf({&rough, 1}).front();
   ASSERT_GT(all.share, 0.05);
   EXPECT_NEAR(std::accumulate(all.bySize.begin(), all.bySize.end(), 0.0), all.share, 1e-12);
   ASSERT_GT(all.bySize.size(), 4u);
@@ -102,7 +118,7 @@ TEST(CutOutlets, KeepsHollowsUpToTheirSharesBySize) {
   Grid<float> heights = rough;
   const OutletsCut cut = cutOutlets(heights, {}, {.kept = wanted});
   EXPECT_NEAR(cut.flooded, all.share, 1e-9);
-  const Hollows kept = hollowsOf({&heights, 1});
+  const Hollows kept = hollowsOf({&heights, 1}).front();
   const double most = std::accumulate(wanted.begin(), wanted.end(), 0.0);
   EXPECT_LE(kept.share, most);
   EXPECT_GT(kept.share, most / 2);
@@ -112,6 +128,31 @@ TEST(CutOutlets, KeepsHollowsUpToTheirSharesBySize) {
   Grid<float> same = rough;
   EXPECT_EQ(cutOutlets(same, {}, {.kept = all.bySize}).outlets, 0);
   EXPECT_EQ(same, rough);
+}
+
+TEST(CutOutlets, KeepsNoHollowThroughWhichLowerLandDrains) {
+  // A gorge with a pond in it, and a basin above that, of this height.
+  const auto gorge = [](float basin) {
+    Grid<float> heights(60, 41, 200);
+    for (int y = 18; y < 23; ++y) {
+      for (int x = 0; x < 51; ++x) {
+        const float bed = x < 10 ? 90 + 0.1f * static_cast<float>(x) : x < 17 ? 80 : 92;
+        heights(x, y) = x < 26 ? bed : basin;
+      }
+    }
+    return heights;
+  };
+  // The pond's size may stay, the basin's may not.
+  const std::vector<double> pond{0, 0, 0, 0, 0, 0.02};
+  const auto cut = [&](Grid<float> heights) {
+    cutOutlets(heights, {}, {.fill = 0, .kept = pond});
+    return heights;
+  };
+  const Grid<float> low = gorge(60), high = gorge(91.5f);
+  const Grid<float> drained = cut(low), kept = cut(high);
+  EXPECT_EQ(hollowsOf({&drained, 1}).front().share, 0);
+  for (std::size_t s = 0; s < low.count(); ++s) ASSERT_LE(drained[s], low[s]);  // none lifted
+  EXPECT_NEAR(hollowsOf({&kept, 1}).front().share, 35.0 / (60 * 41), 1e-9);
 }
 
 TEST(Terrain, HasTheExamplesSeaAndLakes) {
