@@ -356,7 +356,7 @@ class GeometryEngine final : public FieldEngine {
       if (along(growth).any()) text += "; " + what + " along " + readableAxes(along(growth));
     };
     say(Growth::Fitted, "extended in its own structure");
-    say(Growth::Grown, "grown of its own parts");
+    say(Growth::Grown, "grown as one");
     if (same) text += "; varied, with " + std::to_string(made.parts) + " of its parts exchanged";
     result.notes.emplace_back("object", text);
     result.statistics.emplace_back("parts_exchanged", static_cast<std::int64_t>(made.parts));

@@ -293,13 +293,14 @@ TEST(Objects, AreExtendedWhereTheyDockAndGrowWhereNot) {
   EXPECT_EQ(two.growth[0], Growth::Grown);
   EXPECT_EQ(two.growth[1], Growth::Varied);
   EXPECT_EQ(pieces(two.made.field), 1);
-  EXPECT_NEAR(solid(two.made.field) / solid(stone), 1.5, 0.25);
+  EXPECT_NEAR(solid(two.made.field) / solid(stone) / 1.5, 1, 0.1);
   const CellBox stretched = extent(two.made.field), before = extent(stone);
   EXPECT_NEAR(stretched.size().x, 1.5 * before.size().x, 4);
   const ObjectResult high = synthesizeObject(stone, {.size = {40, 36, 54}});
   EXPECT_EQ(high.growth[2], Growth::Grown);
   EXPECT_EQ(pieces(high.made.field), 1);
   EXPECT_NEAR(extent(high.made.field).size().z, 1.5 * before.size().z, 4);
+  EXPECT_NEAR(solid(high.made.field) / solid(stone) / 1.5, 1, 0.1);
 }
 
 TEST(Objects, GrowOnOneTrunk) {
@@ -314,6 +315,8 @@ TEST(Objects, GrowOnOneTrunk) {
   forEachCell(slice.size(), [&](const Vec3i& p) { slice.values[p] = field.values(p.x, p.y, 12); });
   EXPECT_EQ(pieces(slice), 1);
   EXPECT_LT(extent(slice).size().x, 20);
+  // With as much solid as the example has, for its box.
+  EXPECT_NEAR(solid(field) / solid(example) / 2.25, 1, 0.1);
   // The crown is wider, as the result is.
   EXPECT_GT(extent(field).size().x, 1.35 * extent(example).size().x);
 }
@@ -333,10 +336,15 @@ TEST(Objects, AreTheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(one.growth[0], Growth::Grown);
   EXPECT_EQ(one.made.field.values, eight.made.field.values);
   EXPECT_EQ(one.made.origins, eight.made.origins);
+  withThreads(1, [&] { one = synthesizeObject(tree(), {.size = {54, 34, 40}}); });
+  withThreads(8, [&] { eight = synthesizeObject(tree(), {.size = {54, 34, 40}}); });
+  EXPECT_EQ(one.growth[0], Growth::Grown);
+  EXPECT_EQ(one.made.field.values, eight.made.field.values);
+  EXPECT_EQ(one.made.origins, eight.made.origins);
 }
 
 TEST(Objects, HaveTheSignOfTheirOrigins) {
-  for (const DistanceField& example : {village(), boulder()}) {
+  for (const DistanceField& example : {village(), boulder(), tree()}) {
     const Vec3i size = example.size() + Vec3i{12, 0, 0};
     const SynthesisResult made = synthesizeObject(example, {.size = size}).made;
     std::int64_t wrong = 0;

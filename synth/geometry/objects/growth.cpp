@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <limits>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "core/cells.h"
 #include "core/parallel.h"
-#include "sdf/resample.h"
 #include "synth/geometry/voting/voting.h"
 
 namespace exemplar {
@@ -27,44 +30,131 @@ constexpr int kCoarseSide = 40;
 constexpr float kNear = 3;
 constexpr double kAgree = 0.75;
 
-Vec3i sizeOf(const GrowthOptions& options) {
-  Vec3i size;
-  for (int axis = 0; axis < 3; ++axis)
-    size[axis] = static_cast<int>(options.places[static_cast<std::size_t>(axis)].size());
-  return size;
-}
+/// What is at most this thick, of its longest side, is limbs and walls: half its thickness.
+constexpr double kThin = 1.0 / 8;
 
-double placeAt(const GrowthOptions& options, int axis, int i) {
-  return options.places[static_cast<std::size_t>(axis)][static_cast<std::size_t>(i)];
-}
+/// Directions that a surface faces are sorted by a cube whose sides have so many fields along
+/// an edge; an object is made of planes where so much of its surface faces so many of them.
+constexpr int kFields = 9;
+constexpr std::size_t kFacings = 8;
+constexpr double kPlanes = 0.45;
 
-/// The example as it is stretched, in voxels.
-Array3D<float> stretchedValues(const DistanceField& example, const GrowthOptions& options) {
-  Array3D<float> values(sizeOf(options));
-  parallelForEachCell(values.size(), [&](const Vec3i& p) {
-    const Vec3d at{placeAt(options, 0, p.x), placeAt(options, 1, p.y), placeAt(options, 2, p.z)};
-    values[p] = static_cast<float>(cubicAt(example.values, at) / example.voxelSize);
-  });
-  return values;
-}
+/// A sample is shown from at most so far from where the stretched object is, samples.
+constexpr int kOriginReach = 4;
+
+/// What has grown is made again, with its guide moved outward or inward, while its solid share is
+/// off by more than this, at most so many times.
+constexpr double kSolidOff = 0.07;
+constexpr int kCorrections = 2;
 
 /// The start of voting on a grid `shrink` times as coarse.
-Array3D<Vec3i> startOf(const GrowthOptions& options, int shrink) {
-  const Vec3i size = sizeOf(options);
-  Vec3i coarse;
-  for (int axis = 0; axis < 3; ++axis) coarse[axis] = (size[axis] + shrink - 1) / shrink;
+Array3D<Vec3i> startOf(const StretchedObject& stretched, const Vec3i& example, int shrink) {
+  const Vec3i size = stretched.places.size();
+  Vec3i coarse, last;
+  for (int axis = 0; axis < 3; ++axis) {
+    coarse[axis] = (size[axis] + shrink - 1) / shrink;
+    last[axis] = (example[axis] + shrink - 1) / shrink - 1;
+  }
   Array3D<Vec3i> start(coarse);
   parallelForEachCell(coarse, [&](const Vec3i& p) {
+    const Vec3i middle = p * shrink + Vec3i{shrink / 2, shrink / 2, shrink / 2};
+    const Vec3f place = stretched.places[stretched.places.clamped(middle)];
     for (int axis = 0; axis < 3; ++axis) {
-      const int middle = std::min(p[axis] * shrink + shrink / 2, size[axis] - 1);
-      const auto place = static_cast<int>(std::lround(placeAt(options, axis, middle)));
-      start[p][axis] = place / shrink;
+      const auto sample = static_cast<int>(std::lround(place[axis]));
+      start[p][axis] = std::clamp(sample / shrink, 0, last[axis]);
     }
   });
   return start;
 }
 
-/// How much of the one's solid is near the other's, the lesser of both ways; fields in voxels.
+/// How a growing object is made.
+enum class Kind {
+  Planes,  ///< stretched as space is: a building
+  Limbs,   ///< along its medial axis: a tree, a vase
+  Lump     ///< its surface is made anew of its parts: a boulder
+};
+
+/// Which field of a cube a direction passes through.
+std::size_t facingOf(const Vec3f& direction) {
+  int longest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(direction[axis]) > std::abs(direction[longest])) longest = axis;
+  std::size_t field = direction[longest] < 0 ? 1 : 0;
+  const float scale = 1 / std::max(1e-9F, std::abs(direction[longest]));
+  for (int axis = 0; axis < 3; ++axis) {
+    const float at = axis == longest ? 0 : (direction[axis] * scale + 1) / 2 * kFields;
+    field = field * kFields +
+            static_cast<std::size_t>(std::clamp<int>(static_cast<int>(at), 0, kFields - 1));
+  }
+  return field * 3 + static_cast<std::size_t>(longest);
+}
+
+Kind kindOf(const DistanceField& example) {
+  const Array3D<float>& values = example.values;
+  const auto voxel = static_cast<float>(example.voxelSize);
+  const Vec3i n = example.size();
+  std::vector<std::int64_t> facings(std::size_t{2} * 3 * kFields * kFields * kFields);
+  std::int64_t surface = 0;
+  float deepest = 0;
+  forEachCell(n, [&](const Vec3i& p) {
+    deepest = std::max(deepest, -values[p]);
+    if (std::abs(values[p]) > voxel / 2) return;
+    Vec3f slope;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3i step;
+      step[axis] = 1;
+      slope[axis] = values[values.clamped(p + step)] - values[values.clamped(p - step)];
+    }
+    ++surface;
+    ++facings[facingOf(slope)];
+  });
+  std::partial_sort(facings.begin(), facings.begin() + kFacings, facings.end(), std::greater<>());
+  const auto planes = std::accumulate(facings.begin(), facings.begin() + kFacings, std::int64_t{0});
+  if (static_cast<double>(planes) > kPlanes * static_cast<double>(surface)) return Kind::Planes;
+  return deepest > kThin * voxel * static_cast<float>(std::max({n.x, n.y, n.z})) ? Kind::Lump
+                                                                                 : Kind::Limbs;
+}
+
+/// The sample of the example nearest to a place that is on the same side of the surface, or just
+/// the nearest.
+Vec3i originOf(const Array3D<float>& example, const Vec3f& place, bool solid) {
+  Vec3i middle;
+  for (int axis = 0; axis < 3; ++axis) middle[axis] = static_cast<int>(std::lround(place[axis]));
+  middle = example.clamped(middle);
+  if ((example[middle] < 0) == solid) return middle;
+  Vec3i best = middle;
+  float least = std::numeric_limits<float>::infinity();
+  forEachCell(CellBox{middle, middle + Vec3i{1, 1, 1}}.grown(kOriginReach), [&](const Vec3i& p) {
+    if (!example.contains(p) || (example[p] < 0) != solid) return;
+    const Vec3f way = cast<float>(p) - place;
+    const float distance = dot(way, way);
+    if (distance >= least) return;
+    least = distance;
+    best = p;
+  });
+  return best;
+}
+
+/// The stretched object as it is.
+SynthesisResult shown(const DistanceField& example, const StretchedObject& object) {
+  SynthesisResult made;
+  made.field = {Array3D<float>(object.values.size()), example.voxelSize, example.origin,
+                example.truncation};
+  made.origins = Origins(object.values.size());
+  const auto voxel = static_cast<float>(example.voxelSize);
+  parallelForEachCell(object.values.size(), [&](const Vec3i& p) {
+    float value = std::clamp(object.values[p] * voxel, -example.truncation, example.truncation);
+    const Vec3i cell = originOf(example.values, object.places[p], value < 0);
+    // Where there is no such sample, the surface gives way.
+    const bool solid = example.values[cell] < 0;
+    if (solid != (value < 0)) value = solid ? -voxel / 64 : voxel / 64;
+    made.field.values[p] = value;
+    made.origins[p] = Origin(cell, 0, 0);
+  });
+  return made;
+}
+
+/// How much of the one's solid is near the other's, the lesser of both ways; the first in voxels.
 double agreement(const Array3D<float>& stretched, const DistanceField& made) {
   const float near = kNear * static_cast<float>(made.voxelSize);
   std::int64_t wanted = 0, found = 0, there = 0, asked = 0;
@@ -81,33 +171,99 @@ double agreement(const Array3D<float>& stretched, const DistanceField& made) {
   return std::min(share(found, wanted), share(asked, there));
 }
 
+/// An object that grows.
+class Growing {
+ public:
+  Growing(const DistanceField& example, const GrowthOptions& options)
+      : example_(example), options_(options) {
+    const Vec3i n = example.size();
+    while ((std::max({n.x, n.y, n.z}) >> (levels_ - 1)) > kCoarseSide) ++levels_;
+    voting_.seed = options.seed;
+    voting_.truncation = options.truncation;
+    voting_.stationary = Axes{};
+  }
+
+  SynthesisResult run(const Progress& progress) {
+    progress.report("stretching the object", 0);
+    Kind kind = kindOf(example_);
+    // Parts that are repeated along an axis have no one place on it.
+    if (kind == Kind::Limbs && !std::ranges::all_of(options_.places, isInOrder))
+      kind = Kind::Planes;
+    const Progress first = progress.part(0, kind == Kind::Lump ? 0.1 : 1);
+    stretched_ = kind == Kind::Limbs ? stretchSkeleton(example_, options_.places, first)
+                                     : stretchSpace(example_, options_.places, first);
+    if (kind != Kind::Lump) return shown(example_, stretched_);
+    voting_.size = stretched_.values.size();
+    SynthesisResult best;
+    double most = -1;
+    for (double done = 0.1; levels_ > 0 && most < kAgree; --levels_) {
+      const double next = levels_ > 1 ? (1 + done) / 2 : 1;
+      SynthesisResult made = asSolid(progress.part(done, next));
+      done = next;
+      const double agrees = agreement(stretched_.values, made.field);
+      if (agrees <= most) continue;
+      most = agrees;
+      best = std::move(made);
+    }
+    return best;
+  }
+
+ private:
+  /// Grown from the level, with about as much solid as the example has.
+  SynthesisResult asSolid(const Progress& progress) {
+    voting_.levels = levels_;
+    voting_.start = startOf(stretched_, example_.size(), 1 << (levels_ - 1));
+    voting_.guide = stretched_.values;
+    SynthesisResult best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int made = 0; made <= kCorrections && least > kSolidOff; ++made) {
+      constexpr double kTries = kCorrections + 1;
+      SynthesisResult next =
+          synthesizeByVoting(example_, voting_, progress.part(made / kTries, (made + 1) / kTries));
+      const Solid solid = solidOf(next.field);
+      moveGuide(solid);
+      if (std::abs(solid.ratio - 1) >= least) continue;
+      least = std::abs(solid.ratio - 1);
+      best = std::move(next);
+    }
+    return best;
+  }
+
+  struct Solid {
+    double ratio = 1;  ///< of its share, over the example's
+    double depth = 0;  ///< how far its surface is outside of where it should be, voxels
+  };
+  Solid solidOf(const DistanceField& made) const {
+    std::int64_t wanted = 0, solid = 0, surface = 0;
+    for (const float v : example_.values.values()) wanted += v < 0;
+    const auto voxel = static_cast<float>(made.voxelSize);
+    for (const float v : made.values.values()) {
+      solid += v < 0;
+      surface += std::abs(v) < voxel;
+    }
+    const double larger =
+        static_cast<double>(made.values.count()) / static_cast<double>(example_.values.count());
+    const double aim = std::max(1.0, static_cast<double>(wanted) * larger);
+    // The surface takes up two voxels.
+    const double area = std::max(1.0, static_cast<double>(surface) / 2);
+    return {static_cast<double>(solid) / aim, (static_cast<double>(solid) - aim) / area};
+  }
+  void moveGuide(const Solid& solid) {
+    for (float& v : voting_.guide->values()) v += static_cast<float>(solid.depth);
+  }
+
+  const DistanceField& example_;
+  const GrowthOptions& options_;
+  VotingOptions voting_;
+  StretchedObject stretched_;
+  int levels_ = 1;
+};
+
 }  // namespace
 
 SynthesisResult growObject(const DistanceField& example, const GrowthOptions& options,
                            const Progress& progress) {
-  const Vec3i n = example.size();
-  VotingOptions voting;
-  voting.size = sizeOf(options);
-  voting.seed = options.seed;
-  voting.truncation = options.truncation;
-  voting.stationary = Axes{};
-  voting.guide = stretchedValues(example, options);
-  int levels = 1;
-  while ((std::max({n.x, n.y, n.z}) >> (levels - 1)) > kCoarseSide) ++levels;
-  SynthesisResult best;
-  double most = -1;
-  for (double done = 0; levels > 0 && most < kAgree; --levels) {
-    voting.levels = levels;
-    voting.start = startOf(options, 1 << (levels - 1));
-    const double next = levels > 1 ? (1 + done) / 2 : 1;
-    SynthesisResult made = synthesizeByVoting(example, voting, progress.part(done, next));
-    done = next;
-    const double agrees = agreement(*voting.guide, made.field);
-    if (agrees <= most) continue;
-    most = agrees;
-    best = std::move(made);
-  }
-  return best;
+  return Growing(example, options).run(progress);
 }
 
 }  // namespace exemplar

@@ -3,32 +3,34 @@
 
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <vector>
 
 #include "core/progress.h"
+#include "synth/geometry/objects/stretched_object.h"
 #include "synth/geometry/synthesize.h"
 
 namespace exemplar {
 
 struct GrowthOptions {
-  /// Along each axis, where in the example each sample of the result is, samples: an example that
-  /// is stretched where that advances by less than one.
-  std::array<std::vector<double>, 3> places;
+  AxisPlaces places;  ///< how it is stretched
   std::uint64_t seed = 0;
   double truncation = 4;  ///< distances count up to here, voxels; > 0
 };
 
-/// One larger object of the parts of an example that stands alone. The example, stretched as
-/// `places` say, is where synthesis by voting starts from and what it is guided by, on a level on
-/// which it is seen as a whole; patches of the example are as large as ever. So what is long and
-/// alike becomes longer, and where a part has been made too large there are several (Simakov,
-/// Caspi, Shechtman, Irani: "Summarizing visual data using bidirectional similarity", CVPR 2008,
+/// One larger object made of an example that stands alone, with as much solid as that has for the
+/// size of its box, within a tenth where it can be.
+///
+/// What is made of planes is stretched as space is (`stretchSpace`), what is made of limbs or thin
+/// walls along its medial axis (`stretchSkeleton`, where all `places` are in order): that is the
+/// result. A lump is then made anew of patches of the example, as large as ever, by voting that
+/// starts from the stretched object and is guided by it, on a level on which it is seen as a whole;
+/// where a part has been made too large there are several (Simakov, Caspi, Shechtman, Irani:
+/// "Summarizing visual data using bidirectional similarity", CVPR 2008,
 /// doi:10.1109/CVPR.2008.4587842, section 3, there for pictures that become smaller).
 ///
-/// About the cost of `synthesizeByVoting`. The same bytes at any number of threads. Throws
-/// `Cancelled`.
+/// Each sample has the sign of the example at its origin. The cost of `stretchSkeleton`, or of
+/// `synthesizeByVoting` up to three times on each of two levels. The same bytes at any number of
+/// threads. Throws `Cancelled`.
 SynthesisResult growObject(const DistanceField& example, const GrowthOptions& options,
                            const Progress& progress = {});
 

@@ -20,7 +20,7 @@ bool isFreeStanding(const DistanceField& example);
 enum class Growth {
   Varied,  ///< it stays as long, its parts longer and shorter
   Fitted,  ///< it is extended or shortened in its own structure
-  Grown,   ///< it does not dock onto itself: it grows by what is made of its parts (`growObject`)
+  Grown,   ///< it does not dock onto itself: it grows as a whole (`growObject`)
 };
 
 struct ObjectOptions {
@@ -54,7 +54,7 @@ struct ObjectResult {
 /// along which the result is longer or shorter, the object is extended or shortened where it docks
 /// onto itself (`fittedPath`), and joints are cut where both sides agree best, as everywhere
 /// (`assemble`). Where it does not, or would stand on several feet instead of one, it grows into
-/// one larger object of its parts (`growObject`).
+/// one larger object (`growObject`).
 ///
 /// Where something is kept and the example does not dock onto itself beside it along an axis along
 /// which the result is of another size, nothing is made, and `made.field` is empty.
