@@ -8,6 +8,7 @@ import math
 import os
 import sys
 import unittest
+import unittest.mock
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
@@ -133,6 +134,34 @@ class Extend(InAScene):
         self.assertTrue((area > 0.1 * area.sum()).all(), area)
         self.assertTrue(more.data.has_custom_normals)
         self.assertTrue(all(face.use_smooth for face in more.data.polygons))
+
+    def test_shows_the_files_normals_to_a_degree(self):
+        came = []
+
+        def watched(name, triangles, exported):
+            came.append(triangles)
+            return build(name, triangles, exported)
+        build = exchange.build
+        for thing, shape in ((scene.wall(), "edges"), (solid(segments=24, place=(9, 0, 0)), "round")):
+            with self.subTest(shape), unittest.mock.patch.object(exchange, "build", watched):
+                mesh = extend(thing, scale=(2, 1, 1), scatter=True).data
+                mesh.calc_normals_split()
+                shown, points = (np.empty(3 * len(mesh.loops), np.float32) for _ in range(2))
+                mesh.loops.foreach_get("normal", shown)
+                for loop, at in zip(mesh.loops, points.reshape(-1, 3)):
+                    at[:] = mesh.vertices[loop.vertex_index].co
+                file = came.pop()
+                # The same corners in the same order, but for triangles without area.
+                p = file.positions.astype(np.float32)
+                whole = ((p != np.roll(p, 1, 1)).any(-1)).all(-1)
+                np.testing.assert_array_equal(points.reshape(-1, 3, 3), p[whole])
+                plain = np.array([mesh.vertices[loop.vertex_index].normal for loop in mesh.loops])
+                away, plain = (np.degrees(np.arccos((n.reshape(-1, 3, 3) * file.normals[whole]).sum(
+                    -1).clip(-1, 1))).max() for n in (shown, plain))
+                print(f"{shape}: normals of {len(mesh.loops)} corners are {away:.3f} degrees away at "
+                      f"most, {plain:.1f} without the file's", file=sys.stderr)
+                self.assertLess(away, 1)
+                self.assertGreater(plain, 5)
 
     def test_brings_groups_colors_and_further_attributes(self):
         ball = solid(segments=24)
