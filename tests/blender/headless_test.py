@@ -6,7 +6,9 @@
 import json
 import math
 import os
+import subprocess
 import sys
+import tempfile
 import unittest
 import unittest.mock
 
@@ -377,6 +379,50 @@ class AgainAndAgain(InAScene):
         self.assertFalse(wall.hide_get())
         self.assertTrue(wall.select_get() and more.hide_get())
         self.assertEqual(bpy.context.active_object, wall)
+
+
+class Assets(InAScene):
+    def test_a_result_is_one_with_its_settings_and_a_catalog(self):
+        more = extend(scene.wall(), scale=(2, 1, 1), seed=9)
+        # Where no file is, there is no asset browser that would find it.
+        with self.assertRaises(RuntimeError):
+            bpy.ops.exemplar.mark_asset()
+        with tempfile.TemporaryDirectory() as folder:
+            path, catalogs = (os.path.join(folder, n) for n in ("walls.blend", "blender_assets.cats.txt"))
+            with open(catalogs, "w", encoding="utf-8") as file:
+                file.write("VERSION 1\n\n00000000-0000-0000-0000-000000000001:Mine:Mine\n")
+            bpy.ops.wm.save_as_mainfile(filepath=path)
+            for _ in range(2):
+                self.assertEqual(bpy.ops.exemplar.mark_asset(), {"FINISHED"})
+            self.assertIn("2 x 1 x 1 of Wall, seed 9", more.asset_data.description)
+            with open(catalogs, encoding="utf-8") as file:
+                lines = file.read().split("\n")
+            self.assertEqual((lines[0], sum(":Mine" in n for n in lines)), ("VERSION 1", 1))
+            self.assertEqual([n for n in lines if more.asset_data.catalog_id in n],
+                             [more.asset_data.catalog_id + ":Exemplar:Exemplar"])
+            bpy.ops.wm.save_mainfile()
+            bpy.ops.wm.read_homefile(use_factory_startup=False, use_empty=True)
+            with bpy.data.libraries.load(path, assets_only=True) as (there, taken):
+                self.assertEqual(there.objects, ["Wall more"])
+                taken.objects = there.objects
+            self.assertEqual(bpy.data.objects["Wall more"]["exemplar_seed"], 9)
+
+    def test_the_bundled_scenes_are_a_file_of_them(self):
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts",
+                              "blender_examples.py")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "examples.blend")
+            done = subprocess.run([bpy.app.binary_path, "-b", "-noaudio", "--factory-startup",
+                                   "--python-exit-code", "1", "-P", script, "--", path, "castle"],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with bpy.data.libraries.load(path, assets_only=True) as (there, taken):
+                taken.objects = there.objects
+            castle = bpy.data.objects["Castle"]
+            self.assertGreater(len(castle.data.polygons), 100)
+            self.assertGreater(len(castle.data.materials), 3)
+            self.assertGreaterEqual(min(corner[2] for corner in castle.bound_box), -1e-3)
+            self.assertTrue(os.path.isfile(os.path.join(folder, "blender_assets.cats.txt")))
 
 
 class Modules(InAScene):
