@@ -8,6 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 check=${1:-}
 build=build/package
+mkdir -p $build
 
 scripts/install.sh help2man file python3-dev pybind11-dev patchelf
 echo "== building for packages in $build"

@@ -21,10 +21,10 @@ except ImportError:  # job.py, glb.py and grid.py serve without Blender
 if bpy:
     import atexit
 
-    from . import extend, job, landscape, modules, panel, run, settings
+    from . import assets, extend, job, landscape, modules, panel, run, settings
 
     _classes = (*settings.CLASSES, *extend.CLASSES, *modules.CLASSES, *landscape.CLASSES,
-                *panel.CLASSES)
+                *assets.CLASSES, *panel.CLASSES)
 
     @bpy.app.handlers.persistent
     def _end_jobs(*_):

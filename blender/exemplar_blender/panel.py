@@ -196,6 +196,7 @@ class EXEMPLAR_PT_result(_Tab, bpy.types.Panel):
         elif record["kind"] == "modules":
             layout.operator("exemplar.modules_again", icon="FILE_REFRESH")
         layout.operator("exemplar.adopt", icon="COPYDOWN")
+        layout.operator("exemplar.mark_asset", icon="ASSET_MANAGER")
         layout.operator("exemplar.restore", icon="LOOP_BACK")
         gone = [name for name in record["sources"] if name not in bpy.data.objects]
         if gone:

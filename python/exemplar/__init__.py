@@ -36,7 +36,15 @@ __all__ = ["BlockIndex", "Cancelled", "Example", "Field", "Heights", "Impossible
 
 class Impossible(RuntimeError):
     """Nothing meets the request; `conflict` says what excludes each other: a dict with `text`,
-    `pins` (their numbers) and `sides`."""
+    `pins` (their numbers) and `sides`.
+
+    >>> checkered = LabelGrid([[[1], [2]], [[2], [1]]], names=["", "black", "white"])
+    >>> try:
+    ...     synthesize(checkered, size=(4, 1, 1), pin=["0,0,0=white", "1,0,0=white"])
+    ... except Impossible as error:
+    ...     print(error.conflict["pins"])
+    [0, 1]
+    """
 
     def __init__(self, text, conflict=None):
         super().__init__(text)
@@ -49,7 +57,11 @@ class Unfinished(RuntimeError):
 
 def settings(engine="geometry"):
     """What can be set for an engine: a list of dicts (key, type, meaning, unit, least, most,
-    choices, default, repeats). As keywords of `synthesize` and `read`, hyphens are underscores."""
+    choices, default, repeats). As keywords of `synthesize` and `read`, hyphens are underscores.
+
+    >>> next(s for s in settings("geometry") if s["key"] == "scale")["meaning"]
+    "the result's size as a multiple of the example's"
+    """
     return _core._settings(engine)
 
 
@@ -140,7 +152,16 @@ class Example:
 
 
 class Result:
-    """More of an example, and where each part of it came from."""
+    """More of an example, and where each part of it came from.
+
+    >>> example = Example([[[1], [2]], [[2], [1]]])  # labels: integers in three dimensions
+    >>> more = synthesize(example, size=(5, 4, 1), seed=3)
+    >>> more
+    <exemplar.Result of model, 5 x 4 x 1 cells, seed 3>
+    >>> cells, origins = more.labels.labels, more.origins
+    >>> bool((example.labels.labels[tuple(origins.transpose(3, 0, 1, 2))] == cells).all())
+    True
+    """
 
     def __init__(self, core):
         self._core, self._meshes = core, {}
@@ -234,6 +255,15 @@ def synthesize(example, *, engine="auto", keep=None, guide=None, on=None, detail
     progress: called with (stage, fraction) about twenty times a second; False stops the work.
     threads: cores to use, 0 for all; the result does not depend on it.
 
+    >>> import numpy
+    >>> bumps = numpy.sin(numpy.arange(12) * (numpy.pi / 3))  # height above every place of a row
+    >>> field = numpy.arange(8) - 3.5 - bumps[:, None, None] + numpy.zeros((1, 12, 1))
+    >>> more = synthesize(Example(field), scale=(2, 1, 1), seed=7)
+    >>> more.field.shape
+    (24, 12, 8)
+    >>> more.mesh().health()["manifold"]
+    True
+
     Throws InputError, Impossible, Unfinished, Cancelled, and KeyboardInterrupt at Ctrl-C."""
     if engine == "auto" and on is not None:
         engine = "surface"
@@ -259,7 +289,13 @@ def _require_complete(outcome, why, conflict=None):
 def measure(example, result=None, *, origins=None, mesh=None, progress=None, threads=0):
     """How alike, how new, how seamless: a dict of dicts (docs/measures.md). Of a `Result`, or of
     something against an example: a Field, a Mesh, a LabelGrid or a path. origins: as
-    `Result.origins` has them; mesh: the surface of a Field."""
+    `Result.origins` has them; mesh: the surface of a Field.
+
+    >>> import numpy
+    >>> cells = numpy.indices((6, 6, 1)).sum(0) % 2 + 1
+    >>> measure(Example(cells), LabelGrid(cells))["content"]["labels_used"]  # of two, both
+    1.0
+    """
     if result is None:
         return example.measure(progress=progress, threads=threads)
     if isinstance(result, Result):
@@ -325,7 +361,13 @@ class World:
 
 def render(thing, *, size=(640, 480), view="iso", samples=32, progress=None):
     """A picture of a mesh, an example or a result: height x width x 3, uint8. `view` is iso, front,
-    back, left, right, top, bottom, or "AZIMUTH,ELEVATION" in degrees."""
+    back, left, right, top, bottom, or "AZIMUTH,ELEVATION" in degrees.
+
+    >>> corner = Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+    ...               [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
+    >>> render(corner, size=(64, 48), samples=4).shape
+    (48, 64, 3)
+    """
     if isinstance(thing, Result):
         thing = thing.heights or thing.mesh()
     elif isinstance(thing, Example):

@@ -6,8 +6,11 @@
 import json
 import math
 import os
+import subprocess
 import sys
+import tempfile
 import unittest
+import unittest.mock
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
@@ -133,6 +136,34 @@ class Extend(InAScene):
         self.assertTrue((area > 0.1 * area.sum()).all(), area)
         self.assertTrue(more.data.has_custom_normals)
         self.assertTrue(all(face.use_smooth for face in more.data.polygons))
+
+    def test_shows_the_files_normals_to_a_degree(self):
+        came = []
+
+        def watched(name, triangles, exported):
+            came.append(triangles)
+            return build(name, triangles, exported)
+        build = exchange.build
+        for thing, shape in ((scene.wall(), "edges"), (solid(segments=24, place=(9, 0, 0)), "round")):
+            with self.subTest(shape), unittest.mock.patch.object(exchange, "build", watched):
+                mesh = extend(thing, scale=(2, 1, 1), scatter=True).data
+                mesh.calc_normals_split()
+                shown, points = (np.empty(3 * len(mesh.loops), np.float32) for _ in range(2))
+                mesh.loops.foreach_get("normal", shown)
+                for loop, at in zip(mesh.loops, points.reshape(-1, 3)):
+                    at[:] = mesh.vertices[loop.vertex_index].co
+                file = came.pop()
+                # The same corners in the same order, but for triangles without area.
+                p = file.positions.astype(np.float32)
+                whole = ((p != np.roll(p, 1, 1)).any(-1)).all(-1)
+                np.testing.assert_array_equal(points.reshape(-1, 3, 3), p[whole])
+                plain = np.array([mesh.vertices[loop.vertex_index].normal for loop in mesh.loops])
+                away, plain = (np.degrees(np.arccos((n.reshape(-1, 3, 3) * file.normals[whole]).sum(
+                    -1).clip(-1, 1))).max() for n in (shown, plain))
+                print(f"{shape}: normals of {len(mesh.loops)} corners are {away:.3f} degrees away at "
+                      f"most, {plain:.1f} without the file's", file=sys.stderr)
+                self.assertLess(away, 1)
+                self.assertGreater(plain, 5)
 
     def test_brings_groups_colors_and_further_attributes(self):
         ball = solid(segments=24)
@@ -348,6 +379,50 @@ class AgainAndAgain(InAScene):
         self.assertFalse(wall.hide_get())
         self.assertTrue(wall.select_get() and more.hide_get())
         self.assertEqual(bpy.context.active_object, wall)
+
+
+class Assets(InAScene):
+    def test_a_result_is_one_with_its_settings_and_a_catalog(self):
+        more = extend(scene.wall(), scale=(2, 1, 1), seed=9)
+        # Where no file is, there is no asset browser that would find it.
+        with self.assertRaises(RuntimeError):
+            bpy.ops.exemplar.mark_asset()
+        with tempfile.TemporaryDirectory() as folder:
+            path, catalogs = (os.path.join(folder, n) for n in ("walls.blend", "blender_assets.cats.txt"))
+            with open(catalogs, "w", encoding="utf-8") as file:
+                file.write("VERSION 1\n\n00000000-0000-0000-0000-000000000001:Mine:Mine\n")
+            bpy.ops.wm.save_as_mainfile(filepath=path)
+            for _ in range(2):
+                self.assertEqual(bpy.ops.exemplar.mark_asset(), {"FINISHED"})
+            self.assertIn("2 x 1 x 1 of Wall, seed 9", more.asset_data.description)
+            with open(catalogs, encoding="utf-8") as file:
+                lines = file.read().split("\n")
+            self.assertEqual((lines[0], sum(":Mine" in n for n in lines)), ("VERSION 1", 1))
+            self.assertEqual([n for n in lines if more.asset_data.catalog_id in n],
+                             [more.asset_data.catalog_id + ":Exemplar:Exemplar"])
+            bpy.ops.wm.save_mainfile()
+            bpy.ops.wm.read_homefile(use_factory_startup=False, use_empty=True)
+            with bpy.data.libraries.load(path, assets_only=True) as (there, taken):
+                self.assertEqual(there.objects, ["Wall more"])
+                taken.objects = there.objects
+            self.assertEqual(bpy.data.objects["Wall more"]["exemplar_seed"], 9)
+
+    def test_the_bundled_scenes_are_a_file_of_them(self):
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts",
+                              "blender_examples.py")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "examples.blend")
+            done = subprocess.run([bpy.app.binary_path, "-b", "-noaudio", "--factory-startup",
+                                   "--python-exit-code", "1", "-P", script, "--", path, "castle"],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with bpy.data.libraries.load(path, assets_only=True) as (there, taken):
+                taken.objects = there.objects
+            castle = bpy.data.objects["Castle"]
+            self.assertGreater(len(castle.data.polygons), 100)
+            self.assertGreater(len(castle.data.materials), 3)
+            self.assertGreaterEqual(min(corner[2] for corner in castle.bound_box), -1e-3)
+            self.assertTrue(os.path.isfile(os.path.join(folder, "blender_assets.cats.txt")))
 
 
 class Modules(InAScene):

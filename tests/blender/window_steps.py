@@ -51,6 +51,10 @@ def busy():
     return sys.modules["exemplar_blender.run"].busy()
 
 
+def current():
+    return sys.modules["exemplar_blender.run"].current()
+
+
 def until(condition, seconds):
     """Steps that wait; fails where it takes longer."""
     end = time.monotonic() + seconds
@@ -80,18 +84,27 @@ def steps():
         assert busy() and len(scene.leftovers()[1]) == 1, scene.leftovers()
         return
 
-    # Esc leaves everything as it was: at once, while reading, later.
+    # Esc leaves everything as it was: at once, while the example is read, while more is made of it,
+    # while that becomes a surface.
     before = scene.state()
-    for wait in (0.0, 0.15, 0.4, 0.8, 1.5):
-        start(samples=250, scale=(8, 1, 1))
-        yield wait
-        assert busy(), f"it ended before Esc, after {wait} s"
+    stages = set()
+    for share in (0, 0.05, 0.35, 0.55, 0.7):
+        start(samples=96, scale=(4, 1, 1))
+        yield from until(lambda: not busy() or current().fraction >= share, 200)
+        assert busy(), f"it ended before Esc, at {share}"
+        stages.add(current().stage)
         asked = time.monotonic()
+        where = f"Esc at {current().fraction:.2f}, {current().stage}"
         press("ESC")
         yield from until(idle, 20)
-        print(f"Esc after {wait} s: {time.monotonic() - asked:.2f} s")
+        took = time.monotonic() - asked
+        # Half a second where this process has a core of its own.
+        allowed = 0.5 * max(1, os.getloadavg()[0] / os.cpu_count())
+        print(f"{where}: {took:.2f} s of {allowed:.2f}")
+        assert took < allowed, f"{where}: only {took:.2f} s later is it cancelled"
         assert scene.state() == before
         assert scene.leftovers() == ([], []), scene.leftovers()
+    assert len(stages) >= 4, f"the moments were not those that they should be: {stages}"
 
     # One undo removes the result, its mesh, and no more; redo brings it back.
     start()
