@@ -34,6 +34,8 @@ struct EngineOptions {
   Along along = Along::Auto;
   Base base = Base::None;
   bool baseGiven = false;
+  /// Whether the result has the inside of a surface that the example covers a part of.
+  bool hasBody() const { return baseGiven && base != Base::None; }
   std::string strokes, cover, sizeMap;
   bool likeness = false;
 };
@@ -78,7 +80,7 @@ const SettingTable<EngineOptions>& table() {
       settingRow<O>("cover", &O::cover,
                     "what of the surface the example covers: the name of a material there, or red, "
                     "green, blue or alpha, where that channel of its vertex colors is at least one "
-                    "half"),
+                    "half; with a `base` the rest is in the result as it is"),
       settingRow<O>("size-map", &O::sizeMap,
                     "the channel of the surface's vertex colors (red, green, blue or alpha) that "
                     "says how large the example is there: 0 half its size, 1 twice"),
@@ -201,12 +203,15 @@ class SurfaceEngine final : public Engine {
   Vec3i extentOf(std::span<const Example> examples, const Request& request) const override {
     EngineOptions options;
     table().apply(request.settings, options);
-    TriangleMesh on = readTriangles(*request.on, request.reading.mesh);
-    if (!options.cover.empty()) on = coveredPart(on, options.cover, request.on->name());
-    const Vec3d box = boundingBox(on).size();
+    const TriangleMesh on = readTriangles(*request.on, request.reading.mesh);
+    Vec3d box = boundingBox(on).size(), covered = box;
+    if (!options.cover.empty()) {
+      covered = boundingBox(coveredPart(on, options.cover, request.on->name())).size();
+      if (!options.hasBody()) box = covered;
+    }
     const Vec3i& example = examples.front().field().size();
     const double longest = std::max({example.x, example.y, example.z});
-    double sample = options.surface.span.value_or(length(box) / 4) / longest;
+    double sample = options.surface.span.value_or(length(covered) / 4) / longest;
     if (!options.sizeMap.empty())
       sample *= std::ranges::min(paintedSizes(on, options.sizeMap, request.on->name()));
     Vec3i size;
@@ -233,18 +238,18 @@ class SurfaceEngine final : public Engine {
     if (options.surface.symmetry == 3 || options.surface.symmetry == 5)
       throw InputError("`turns` " + std::to_string(*options.surface.symmetry) +
                        ": expected 1, 2, 4 or 6");
-    if (!options.cover.empty() && options.baseGiven && options.base != Base::None)
-      throw InputError(
-          "`base`: what `cover` names is a part of the surface, which has no inside; use none");
   }
   Result synthesize(std::span<const Example> examples, const Request& request,
                     const Progress& progress) const override {
     EngineOptions options;
     table().apply(request.settings, options);
     Result result;
-    const TriangleMesh on = targetSurface(*request.on, request.reading.mesh, options.cover,
-                                          &result.warnings, progress.part(0, 0.05));
+    TargetSurface target =
+        targetSurface(*request.on, request.reading.mesh, options.cover, options.hasBody(),
+                      &result.warnings, progress.part(0, 0.05));
+    const TriangleMesh& on = target.surface;
     surface::SurfaceOptions& surface = options.surface;
+    surface.body = std::move(target.body);
     surface.seed = request.seed;
     if (!options.sizeMap.empty())
       surface.sizes = paintedSizes(on, options.sizeMap, request.on->name());

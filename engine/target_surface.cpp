@@ -62,35 +62,56 @@ std::int64_t joinEqual(TriangleMesh& mesh) {
   return doubled;
 }
 
+/// Joins equal positions, and cuts what is no manifold into sheets.
+void makeSheets(TriangleMesh& mesh, const std::string& name, Warnings* warnings,
+                const Progress& progress) {
+  const std::int64_t doubled = joinEqual(mesh);
+  if (doubled > 0)
+    warn(warnings,
+         name + ": " + withThousands(doubled) + " triangles are there twice; one of each is taken");
+  if (mesh.triangles.empty()) throw InputError("`on`: " + name + " has no triangle with area");
+  const ManifoldReport cut = makeManifold(mesh, {.repairDegenerate = false}, progress);
+  if (mesh.triangles.empty())
+    throw InputError("`on`: " + name + " encloses nothing: all of its triangles lie back to back");
+  if (cut.splitVertices > 0 || cut.splitEdges > 0)
+    warn(warnings, name +
+                       ": the surface is no manifold, or not turned one way; it is cut where its "
+                       "parts do not go together, and rows may break there");
+}
+
+bool isInsideOut(const TriangleMesh& mesh) {
+  const MeshHealth health = meshHealth(mesh);
+  return health.closed() && health.signedVolume < 0;
+}
+
+void turnOver(TriangleMesh& mesh) {
+  for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+}
+
 }  // namespace
 
-TriangleMesh targetSurface(const Source& source, const MeshFileOptions& options,
-                           const std::string& cover, Warnings* warnings, const Progress& progress) {
+TargetSurface targetSurface(const Source& source, const MeshFileOptions& options,
+                            const std::string& cover, bool withBody, Warnings* warnings,
+                            const Progress& progress) {
   const SourceKind kind = sourceKind(source);
   if (kind != SourceKind::Mesh)
     throw InputError("`on`: " + source.name() + " is no mesh; a surface of triangles is wanted");
-  TriangleMesh mesh = readTriangles(source, options, progress.part(0, 0.5));
-  if (!cover.empty()) mesh = coveredPart(mesh, cover, source.name());
-  const std::int64_t doubled = joinEqual(mesh);
-  if (doubled > 0)
-    warn(warnings, source.name() + ": " + withThousands(doubled) +
-                       " triangles are there twice; one of each is taken");
-  if (mesh.triangles.empty())
-    throw InputError("`on`: " + source.name() + " has no triangle with area");
-  const ManifoldReport cut = makeManifold(mesh, {.repairDegenerate = false}, progress.part(0.5, 1));
-  if (mesh.triangles.empty())
-    throw InputError("`on`: " + source.name() +
-                     " encloses nothing: all of its triangles lie back to back");
-  if (cut.splitVertices > 0 || cut.splitEdges > 0)
-    warn(warnings, source.name() +
-                       ": the surface is no manifold, or not turned one way; it is cut where its "
-                       "parts do not go together, and rows may break there");
-  const MeshHealth health = meshHealth(mesh);
-  if (health.closed() && health.signedVolume < 0) {
-    for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  TargetSurface target;
+  TriangleMesh mesh = readTriangles(source, options, progress.part(0, 0.4));
+  target.surface = cover.empty() ? std::move(mesh) : coveredPart(mesh, cover, source.name());
+  makeSheets(target.surface, source.name(), warnings, progress.part(0.4, 0.7));
+  bool turned = isInsideOut(target.surface);
+  if (!cover.empty() && withBody) {
+    makeSheets(mesh, source.name(), nullptr, progress.part(0.7, 1));
+    turned = isInsideOut(mesh);
+    if (turned) turnOver(mesh);
+    target.body = std::move(mesh);
+  }
+  if (turned) {
+    turnOver(target.surface);
     warn(warnings, source.name() + ": the surface is inside out; it is turned");
   }
-  return mesh;
+  return target;
 }
 
 }  // namespace exemplar

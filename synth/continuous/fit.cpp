@@ -82,22 +82,24 @@ class Fitting {
                        "); thicken it, or use the engine geometry");
     }
     tolerance_ = options_.tolerance.value_or(kUsualTolerance) * longest_;
-    std::string why;
+    std::string first, last;  // why it does not do when faces are moved least, and most
     for (std::size_t n = 0; n < kPlans.size(); ++n) {
       progress.report("fitting planes", static_cast<double>(n) / kPlans.size());
-      const std::string whyNot = attempt(kPlans[n] * tolerance_, progress);
-      if (!whyNot.empty()) {
-        why = whyNot;
-        continue;
-      }
+      last = attempt(kPlans[n] * tolerance_, progress);
+      if (n == 0) first = last;
+      if (!last.empty()) continue;
       if (report) {
         *report = {moved_, parts_.parts.size(), parts_.openings, parts_.sheets,
                    static_cast<std::size_t>(std::ranges::count(patches_, true, &Patch::dropped))};
       }
       return std::move(made_);
     }
-    throw InputError("the mesh is too fine to be read as solids between planes: moved by up to " +
-                     percent(tolerance_ / longest_) + " of its longest side, " + why +
+    const auto moved = [&](double plan, const std::string& why) {
+      return "moved by up to " + percent(plan * tolerance_ / longest_) + " of its longest side, " +
+             why;
+    };
+    throw InputError("the mesh is too fine to be read as solids between planes: " +
+                     moved(kPlans.front(), first) + "; " + moved(kPlans.back(), last) +
                      (options_.tolerance ? "; a larger `snap`, or the engine geometry, may do"
                                          : "; simplify it, or use the engine geometry"));
   }

@@ -143,6 +143,188 @@ struct Reach {
   }
 };
 
+/// Fills the surroundings of a sheet, sample by sample. All lengths are voxels but where it is
+/// said.
+class BandFilling {
+ public:
+  BandFilling(const Sheet& sheet, const FootFinder& feet, const SheetContent& content,
+              const Placements& placements, const Slab& slab, int symmetry,
+              const BandOptions& options)
+      : sheet_(sheet),
+        feet_(feet),
+        content_(content),
+        placements_(placements),
+        slab_(slab),
+        options_(options),
+        reach_(slab, options),
+        voxel_(options.voxel),
+        quarters_(4 % symmetry == 0 ? 4 / symmetry : 0) {
+    const double largest = *std::max_element(sheet.sizes.begin(), sheet.sizes.end());
+    const double most = options.sample * largest / voxel_;
+    outward_ = reach_.up * most + kMargin;
+    inward_ = reach_.down * most + kMargin;
+    limit_ = std::max(outward_, inward_) * voxel_;
+  }
+
+  Band run(const Progress& progress) {
+    setUp();
+    forBlocks(band_.field.size(), kBlock, progress, "filling the surface's surroundings",
+              [&](const Vec3i& low, const Vec3i& high) { fillBlock(low, high); });
+    band_.samples = asked_;
+    fillFar();
+    return std::move(band_);
+  }
+
+ private:
+  static constexpr float kUnknown = std::numeric_limits<float>::max();
+
+  /// An empty field around all that may be asked.
+  void setUp() {
+    Box3d box;
+    for (const Vec3d& p : sheet_.positions) box.add(p);
+    if (options_.body)
+      for (const Vec3d& p : options_.body->sheet.positions) box.add(p);
+    const double margin = (outward_ + 1) * voxel_;
+    const Vec3d sides = (box.size() + Vec3d{1, 1, 1} * (2 * margin)) / voxel_;
+    constexpr double kMostSide = 32767;
+    constexpr double kBytesPerSample = 40;  // with what contouring takes
+    requireMemory(kBytesPerSample * sides.x * sides.y * sides.z,
+                  "a result of " + std::to_string(static_cast<long long>(sides.x)) + " x " +
+                      std::to_string(static_cast<long long>(sides.y)) + " x " +
+                      std::to_string(static_cast<long long>(sides.z)) + " samples",
+                  "use a lower `resolution` or a larger `span`");
+    if (std::max({sides.x, sides.y, sides.z}) > kMostSide)
+      throw InputError("the result would be more than 32,767 samples long; use a larger `span`");
+    Vec3i size;
+    for (int axis = 0; axis < 3; ++axis) size[axis] = static_cast<int>(std::ceil(sides[axis])) + 1;
+    band_.zero = reach_.zero;
+    band_.limit = limit_;
+    band_.field.values = Array3D<float>(size, kUnknown);
+    band_.field.voxelSize = voxel_;
+    band_.field.origin = box.min - Vec3d{1, 1, 1} * margin;
+    band_.field.truncation = static_cast<float>(kMargin * voxel_);
+    band_.origins = Origins(size);
+  }
+
+  void fillBlock(const Vec3i& low, const Vec3i& high) {
+    DistanceField& field = band_.field;
+    const Vec3d first = field.position(cast<double>(low));
+    const Vec3d last = field.position(cast<double>(high - Vec3i{1, 1, 1}));
+    const Vec3d middle = (first + last) * 0.5;
+    const double radius = length(last - first) / 2;
+    std::uint32_t near = TriangleTree::kNone, nearBody = TriangleTree::kNone;
+    const bool some = feet_.within(middle, limit_ + radius, near);
+    const bool body =
+        options_.body && options_.body->feet.within(middle, limit_ + radius, nearBody);
+    if (!some && !body) return;
+    std::int64_t count = 0;
+    serpentine(low, high, [&](const Vec3i& ijk) {
+      const Vec3d point = field.position(cast<double>(ijk));
+      const std::optional<Foot> foot =
+          some ? feet_.find(point, limit_, near) : std::optional<Foot>{};
+      const std::optional<Foot> below =
+          body ? options_.body->feet.find(point, limit_, nearBody) : std::optional<Foot>{};
+      if (set(ijk, foot, below)) ++count;
+    });
+    asked_.fetch_add(count, std::memory_order_relaxed);
+  }
+
+  /// Sets a sample by its foot on the sheet, and by the one on the body; returns whether there is
+  /// anything to set it by.
+  bool set(const Vec3i& ijk, const std::optional<Foot>& foot, const std::optional<Foot>& below) {
+    double value = 0;
+    const bool asked =
+        foot && foot->distance <= outward_ * voxel_ && foot->distance >= -inward_ * voxel_;
+    if (asked) {
+      value = shownBy(ijk, *foot);
+      if (below) value = onBody(value, *foot, below->distance / voxel_);
+    } else if (below) {
+      value = below->distance / voxel_;
+    } else {
+      return false;
+    }
+    band_.field.values[ijk] = static_cast<float>(std::clamp(value, -kMargin, kMargin) * voxel_);
+    return true;
+  }
+
+  /// What the example has at a foot, on its base; sets the sample's origin.
+  double shownBy(const Vec3i& ijk, const Foot& foot) {
+    // `sample` is one of the example here.
+    const double sample = options_.sample * sheet_.sizeAt(foot.triangle, foot.weights) / voxel_;
+    const double h = foot.height / voxel_, d = foot.distance / voxel_;
+    const double z = reach_.zero + h / (sample * options_.height);
+    const Shown shown = shownAt(content_.at(foot.triangle), foot, z, slab_);
+    double value = shown.value * std::min(1.0, options_.height) * sample;
+    const double bottom = h + (reach_.zero - reach_.bottom) * options_.height * sample;
+    switch (options_.base) {
+      case Base::None:
+        if (slab_.grounded()) value = std::max(value, -bottom);
+        break;
+      case Base::Under:
+        value = std::min(value, d);
+        break;
+      case Base::Carve:
+        value = std::max(d, std::min(value, bottom));
+        break;
+    }
+    const auto cell = [](double x, int n) {
+      return std::clamp(static_cast<int>(std::lround(x)), 0, n - 1);
+    };
+    band_.origins[ijk] = Origin({cell(shown.source.x, slab_.size().x),
+                                 cell(shown.source.y, slab_.size().y), cell(z, slab_.size().z)},
+                                0, quarters_ * placements_.all[shown.placement].turn % 4);
+    // A sheet of its own, and what stands on a base, end where the sheet does.
+    if (foot.beyond > 0 && !(options_.body && options_.base == Base::Carve))
+      value = std::max(value, foot.beyond / voxel_);
+    return value;
+  }
+
+  /// Joins what is shown, which ends with the sheet, with the rest of the body, `d` away.
+  double onBody(double value, const Foot& foot, double d) const {
+    if (options_.base == Base::Under) return std::min(value, d);
+    // Nothing is cut out beyond the sheet, nor of what is nearer than it.
+    const double beyond = foot.beyond / voxel_;
+    if (beyond > 0) return std::max(d, -std::max(beyond, -value));
+    return std::abs(d) < std::abs(foot.distance / voxel_) - 1 ? d : value;
+  }
+
+  /// Far from the surface a sample is on the side on which its row comes from; all begin outside.
+  void fillFar() {
+    DistanceField& field = band_.field;
+    const Vec3i size = field.size();
+    const float far = field.truncation;
+    const bool solidInside = options_.base != Base::None;
+    parallelFor(0, static_cast<std::size_t>(size.y) * size.z, 64,
+                [&](std::size_t begin, std::size_t end) {
+                  for (std::size_t row = begin; row < end; ++row) {
+                    float* value = field.values.data() + row * static_cast<std::size_t>(size.x);
+                    float side = far;
+                    for (int i = 0; i < size.x; ++i) {
+                      if (value[i] == kUnknown) {
+                        value[i] = side;
+                      } else if (solidInside) {
+                        side = value[i] < 0 ? -far : far;
+                      }
+                    }
+                  }
+                });
+  }
+
+  const Sheet& sheet_;
+  const FootFinder& feet_;
+  const SheetContent& content_;
+  const Placements& placements_;
+  const Slab& slab_;
+  const BandOptions& options_;
+  const Reach reach_;
+  const double voxel_;  // world units
+  const int quarters_;
+  double outward_ = 0, inward_ = 0;
+  double limit_ = 0;  // world units
+  Band band_;
+  std::atomic<std::int64_t> asked_ = 0;
+};
+
 }  // namespace
 
 SheetContent::SheetContent(const LocalMapper& mapper, const Placements& placements) {
@@ -205,105 +387,7 @@ SheetContent::SheetContent(const LocalMapper& mapper, const Placements& placemen
 Band fillBand(const Sheet& sheet, const FootFinder& feet, const SheetContent& content,
               const Placements& placements, const Slab& slab, int symmetry,
               const BandOptions& options, const Progress& progress) {
-  const Reach reach(slab, options);
-  const double voxel = options.voxel;
-  const double largest = *std::max_element(sheet.sizes.begin(), sheet.sizes.end());
-  // In voxels, where the example is largest.
-  const double most = options.sample * largest / voxel;
-  const double outward = reach.up * most + kMargin, inward = reach.down * most + kMargin;
-  const double limit = std::max(outward, inward) * voxel;
-  Box3d box;
-  for (const Vec3d& p : sheet.positions) box.add(p);
-  const double margin = (outward + 1) * voxel;
-  const Vec3d extent = box.size() + Vec3d{1, 1, 1} * (2 * margin);
-  constexpr double kMostSide = 32767;
-  constexpr double kBytesPerSample = 40;  // with what contouring takes
-  const Vec3d sides = extent / voxel;
-  requireMemory(kBytesPerSample * sides.x * sides.y * sides.z,
-                "a result of " + std::to_string(static_cast<long long>(sides.x)) + " x " +
-                    std::to_string(static_cast<long long>(sides.y)) + " x " +
-                    std::to_string(static_cast<long long>(sides.z)) + " samples",
-                "use a lower `resolution` or a larger `span`");
-  if (std::max({sides.x, sides.y, sides.z}) > kMostSide)
-    throw InputError("the result would be more than 32,767 samples long; use a larger `span`");
-  Vec3i size;
-  for (int axis = 0; axis < 3; ++axis) size[axis] = static_cast<int>(std::ceil(sides[axis])) + 1;
-
-  Band band;
-  band.zero = reach.zero;
-  band.limit = limit;
-  DistanceField& field = band.field;
-  constexpr float kUnknown = std::numeric_limits<float>::max();
-  field.values = Array3D<float>(size, kUnknown);
-  field.voxelSize = voxel;
-  field.origin = box.min - Vec3d{1, 1, 1} * margin;
-  field.truncation = static_cast<float>(kMargin * voxel);
-  band.origins = Origins(size);
-  const double scale = std::min(1.0, options.height);
-  const int quarters = 4 % symmetry == 0 ? 4 / symmetry : 0;
-  std::atomic<std::int64_t> asked = 0;
-  const auto fill = [&](const Vec3i& low, const Vec3i& high) {
-    const Vec3d first = field.position(cast<double>(low));
-    const Vec3d last = field.position(cast<double>(high - Vec3i{1, 1, 1}));
-    std::uint32_t near = TriangleTree::kNone;
-    const double radius = length(last - first) / 2;
-    if (!feet.within((first + last) * 0.5, limit + radius, near)) return;
-    std::int64_t count = 0;
-    serpentine(low, high, [&](const Vec3i& ijk) {
-      const std::optional<Foot> foot = feet.find(field.position(cast<double>(ijk)), limit, near);
-      if (!foot) return;
-      // All in voxels; `sample` is one of the example here.
-      const double sample = options.sample * sheet.sizeAt(foot->triangle, foot->weights) / voxel;
-      const double h = foot->height / voxel, d = foot->distance / voxel;
-      if (d > outward || d < -inward) return;
-      ++count;
-      const double z = reach.zero + h / (sample * options.height);
-      const Shown shown = shownAt(content.at(foot->triangle), *foot, z, slab);
-      double value = shown.value * scale * sample;
-      const double bottom = h + (reach.zero - reach.bottom) * options.height * sample;
-      switch (options.base) {
-        case Base::None:
-          if (slab.grounded()) value = std::max(value, -bottom);
-          break;
-        case Base::Under:
-          value = std::min(value, d);
-          break;
-        case Base::Carve:
-          value = std::max(d, std::min(value, bottom));
-          break;
-      }
-      if (foot->beyond > 0) value = std::max(value, foot->beyond / voxel);
-      field.values[ijk] = static_cast<float>(std::clamp(value, -kMargin, kMargin) * voxel);
-      const auto cell = [](double x, int n) {
-        return std::clamp(static_cast<int>(std::lround(x)), 0, n - 1);
-      };
-      band.origins[ijk] = Origin({cell(shown.source.x, slab.size().x),
-                                  cell(shown.source.y, slab.size().y), cell(z, slab.size().z)},
-                                 0, quarters * placements.all[shown.placement].turn % 4);
-    });
-    asked.fetch_add(count, std::memory_order_relaxed);
-  };
-  forBlocks(size, kBlock, progress, "filling the surface's surroundings", fill);
-  band.samples = asked;
-
-  // Far from the surface a sample is on the side on which its row comes from; all begin outside.
-  const float far = field.truncation;
-  const bool solidInside = options.base != Base::None;
-  parallelFor(0, static_cast<std::size_t>(size.y) * size.z, 64,
-              [&](std::size_t begin, std::size_t end) {
-                for (std::size_t row = begin; row < end; ++row) {
-                  float* value = field.values.data() + row * static_cast<std::size_t>(size.x);
-                  float side = far;
-                  for (int i = 0; i < size.x; ++i) {
-                    if (value[i] == kUnknown) {
-                      value[i] = side;
-                    } else if (solidInside) {
-                      side = value[i] < 0 ? -far : far;
-                    }
-                  }
-                }
-              });
-  return band;
+  return BandFilling(sheet, feet, content, placements, slab, symmetry, options).run(progress);
 }
 
 }  // namespace exemplar::surface

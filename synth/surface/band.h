@@ -46,11 +46,20 @@ class SheetContent {
   std::vector<std::uint32_t> begin_;
 };
 
+/// A closed surface that a sheet is a part of.
+struct Body {
+  const Sheet& sheet;
+  const FootFinder& feet;
+};
+
 struct BandOptions {
   double sample = 1;  ///< length of one on the surface where the example's size is 1; > 0
   double voxel = 1;   ///< side of the result's, world units, > 0
   Base base = Base::None;
   double height = 1;  ///< of the example, of its own, > 0
+  /// What a base is the inside of where the sheet is open, else null: all of it is in the result,
+  /// as it is where the sheet is not.
+  const Body* body = nullptr;
 };
 
 struct Band {

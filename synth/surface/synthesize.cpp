@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -133,9 +134,9 @@ double spanOf(const TriangleMesh& on, const SurfaceOptions& options) {
 }
 
 /// What is below the example; an open surface has no inside for it.
-Base baseOf(const Slab& slab, bool closed, const std::optional<Base>& asked) {
-  const Base base = asked.value_or(slab.grounded() && closed ? Base::Under : Base::None);
-  if (base != Base::None && !closed)
+Base baseOf(const Slab& slab, bool closed, const SurfaceOptions& options) {
+  const Base base = options.base.value_or(slab.grounded() && closed ? Base::Under : Base::None);
+  if (base != Base::None && !closed && !options.body)
     throw InputError(
         "`base`: the surface is open, so that it has no inside; close it, or use none");
   return base;
@@ -155,6 +156,21 @@ LocalMapOptions mappingOf(const Slab& slab, const Lattice& lattice, const Surfac
   mapping.leastRadius = std::min(mapping.radius, std::max(kLeastRadius, kLeastPeriods * period));
   return mapping;
 }
+
+/// The closed surface whose inside is the base, and how its points are found.
+struct OwnBody {
+  Sheet sheet;
+  FootFinder feet;
+
+  explicit OwnBody(const TriangleMesh& mesh, const Progress& progress)
+      : sheet(makeSheet(mesh, {.edge = std::numeric_limits<double>::infinity()},
+                        progress.part(0, 0.5))),
+        feet(sheet, progress.part(0.5, 1)) {
+    if (!sheet.closed())
+      throw InputError(
+          "`base`: the surface is open, so that it has no inside; close it, or use none");
+  }
+};
 
 void setField(const Sheet& sheet, const DirectionField& field, SurfaceFigures& figures) {
   figures.singularities = static_cast<std::int64_t>(field.singularities.size());
@@ -195,7 +211,7 @@ SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMe
   const Sheet& sheet = *ofSheet;
   figures.nodes = static_cast<std::int64_t>(sheet.positions.size());
   figures.closed = sheet.closed();
-  figures.base = baseOf(slab, figures.closed, options.base);
+  figures.base = baseOf(slab, figures.closed, options);
   stage("sheet");
 
   const std::optional<Guidance> guidance = guidanceOf(sheet, options, figures, span, sample);
@@ -223,12 +239,19 @@ SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMe
   figures.steepShare = steepShare(sheet, standing ? height : height / 2);
   const auto feet = std::make_shared<const FootFinder>(sheet, progress.part(0.75, 0.78));
   const auto content = std::make_shared<const SheetContent>(mapper, placements);
+  std::optional<OwnBody> own;
+  std::optional<Body> body;
+  if (options.body && figures.base != Base::None) {
+    own.emplace(*options.body, progress.part(0.78, 0.8));
+    body.emplace(own->sheet, own->feet);
+  }
   Band band = fillBand(sheet, *feet, *content, placements, slab, symmetry.turns,
                        {.sample = sample,
                         .voxel = sample * *std::ranges::min_element(sheet.sizes),
                         .base = figures.base,
-                        .height = options.height},
-                       progress.part(0.78, 1));
+                        .height = options.height,
+                        .body = body ? &*body : nullptr},
+                       progress.part(body ? 0.8 : 0.78, 1));
   figures.bandSamples = band.samples;
   stage("band");
 

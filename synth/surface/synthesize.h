@@ -32,6 +32,9 @@ struct SurfaceOptions {
   /// What is below the example: where its ground is solid and the surface closed, the inside;
   /// else nothing.
   std::optional<Base> base;
+  /// The closed surface that an open one is a part of, for its inside as `base`: all of it is in
+  /// the result then, as it is where the example is not.
+  std::optional<TriangleMesh> body;
   double height = 1;            ///< of the example, of its own, 0.05..20
   std::optional<int> symmetry;  ///< turns that the example allows, 1, 2, 4 or 6; found
   /// A direction in space that the example's y follows; where it has no turns, z; where it has half
@@ -85,8 +88,8 @@ struct SurfaceResult {
 /// and space around the surface asks its nearest point what the example has there (`fillBand`).
 ///
 /// `example` lies flat: z is the height over a surface, air is above, x and y go on. `on` is a
-/// manifold, oriented mesh; open where `base` is not asked for. Throws `InputError` for what cannot
-/// be, and `Cancelled`. The same bytes at any number of threads.
+/// manifold, oriented mesh; open only with a `body` or without a `base`. Throws `InputError` for
+/// what cannot be, and `Cancelled`. The same bytes at any number of threads.
 SurfaceResult synthesizeOnSurface(const DistanceField& example, const TriangleMesh& on,
                                   const SurfaceOptions& options = {},
                                   const Progress& progress = {});

@@ -73,7 +73,8 @@ TEST(SynthCommand, WritesASoundMeshAPictureAndFigures) {
 TEST(SynthCommand, GivesTheSameBytesAtOneAndEightThreadsAndOthersForAnotherSeed) {
   const TestFolder folder;
   for (const std::string engine : {"blocks --block 8", "quilting", "voting"}) {
-    const std::string command = "synth " + scene("chainmail") + kQuick + "--engine " + engine;
+    const std::string command =
+        "synth " + scene("chainmail") + " --resolution 24 --scale 1.5,1,1 --engine " + engine;
     ASSERT_EQ(runExemplar(command + " -o a.ply --threads 1", folder.path()).status, 0);
     ASSERT_EQ(runExemplar(command + " -o b.ply --threads 8", folder.path()).status, 0);
     ASSERT_EQ(runExemplar(command + " -o c.ply --seed 1", folder.path()).status, 0);
@@ -175,7 +176,7 @@ TEST(MeasureCommand, AnExampleIsLikeItselfAndUnlikeAnother) {
 
 TEST(SynthCommand, OldSpellingsOfEnginesStillWork) {
   const TestFolder folder;
-  const std::string make = "synth " + scene("chainmail") + " --resolution 32 ";
+  const std::string make = "synth " + scene("chainmail") + " --resolution 20 --scale 1,1,1 ";
   for (const auto& [old, now] :
        {std::pair{"--method blocks --block 8 --size 60x40", "--engine blocks --block 8"},
         {"--method optimize", "--engine geometry"},
@@ -266,9 +267,9 @@ TEST(SynthCommand, SeveralOutputsAreOneRunAndAreCheckedBeforeIt) {
 
 TEST(SynthCommand, CoarserCopiesAndSourcesAreWrittenBesideTheMesh) {
   const TestFolder folder;
+  const std::string balls = scene("balls") + " --resolution 24 ";
   const auto run =
-      runExemplar("synth " + scene("balls") + kQuick + "--scale 1,1,1 -o o.glb --lods 2 --source",
-                  folder.path());
+      runExemplar("synth " + balls + "--scale 1,1,1 -o o.glb --lods 2 --source", folder.path());
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(folder.files(), "o.glb o_lod1.glb o_lod2.glb");
   std::size_t before = 0;
@@ -286,25 +287,22 @@ TEST(SynthCommand, CoarserCopiesAndSourcesAreWrittenBesideTheMesh) {
     for (const char* name : {"_SOURCE_FACE", "_SOURCE_WEIGHTS", "_SOURCE_EXAMPLE"})
       EXPECT_THAT(readFile(folder / file), testing::HasSubstr(name)) << file;
   }
-  const auto ply = runExemplar(
-      "synth " + scene("balls") + kQuick + "--scale 1,1,1 -o o.ply --source", folder.path());
+  const auto ply = runExemplar("synth " + balls + "--scale 1,1,1 -o o.ply --source", folder.path());
   EXPECT_THAT(ply.err,
               testing::HasSubstr("o.ply: left out, as this format cannot hold it: sources"));
   // Of the volume, too, and to several files.
-  ASSERT_EQ(
-      runExemplar("synth " + scene("balls") + kQuick + "--scale 1,1,1 -o v.vdb --origins g.vdb",
-                  folder.path())
-          .status,
-      0);
-  const auto mesh = runExemplar("mesh v.vdb --origins g.vdb --example " + scene("balls") + kQuick +
-                                    "-o m.glb -o m.obj --lods 1 --source",
-                                folder.path());
+  ASSERT_EQ(runExemplar("synth " + balls + "--scale 1,1,1 -o v.vdb --origins g.vdb", folder.path())
+                .status,
+            0);
+  const auto mesh = runExemplar(
+      "mesh v.vdb --origins g.vdb --example " + balls + "-o m.glb -o m.obj --lods 1 --source",
+      folder.path());
   ASSERT_EQ(mesh.status, 0) << mesh.err;
   EXPECT_EQ(readFile(folder / "m.glb"), readFile(folder / "o.glb"));
   EXPECT_TRUE(std::filesystem::exists(folder / "m_lod1.obj"));
-  const auto bare = runExemplar("mesh v.vdb -o b.stl --triangles 30000", folder.path());
+  const auto bare = runExemplar("mesh v.vdb -o b.stl --triangles 15000", folder.path());
   EXPECT_EQ(bare.status, 0) << bare.err;
-  EXPECT_LE(readMesh(folder / "b.stl").triangles.size(), 30000u);
+  EXPECT_LE(readMesh(folder / "b.stl").triangles.size(), 15000u);
   EXPECT_EQ(runExemplar("mesh v.vdb -o v.vdb", folder.path()).status, 2);
   EXPECT_EQ(runExemplar("mesh v.vdb -o b.ply --source", folder.path()).status, 2);
   EXPECT_EQ(runExemplar("mesh v.vdb -o b.ply -o ./b.ply", folder.path()).status, 2);

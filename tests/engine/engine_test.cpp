@@ -5,9 +5,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "core/error.h"
@@ -389,7 +391,7 @@ TEST(ContinuousEngine, TakesScenesOfSolidsAndClosedMeshes) {
               ThrowsMessage<InputError>(HasSubstr("takes closed meshes and scenes of solids")));
   TriangleMesh ball = makeSphere({0, 0, 0}, 1);
   EXPECT_THAT([&] { readExample(Source::of(ball), {.form = Form::Polygons}); },
-              ThrowsMessage<InputError>(HasSubstr("too fine to be read as solids")));
+              ThrowsMessage<InputError>(HasSubstr("directions (at most")));
 }
 
 TEST(ContinuousEngine, PinsAndThinMaterialsAreNamedByTheExample) {
@@ -425,9 +427,6 @@ TEST(SurfaceEngine, RefusesWhatDoesNotGoWithASurface) {
   EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
               ThrowsMessage<InputError>(HasSubstr("expected 1, 2, 4 or 6")));
   EXPECT_EQ(engineFor(Source::of(bumps()), {{"on", "ball.obj"}}).name(), "surface");
-  request.settings = {{"cover", "skin"}, {"base", "under"}};
-  EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
-              ThrowsMessage<InputError>(HasSubstr("has no inside")));
   request.settings = {{"cover", "skin"}};
   EXPECT_THAT([&] { runOn(surfaceEngine(), example, request); },
               ThrowsMessage<InputError>(HasSubstr("neither named materials nor vertex colors")));
@@ -435,6 +434,21 @@ TEST(SurfaceEngine, RefusesWhatDoesNotGoWithASurface) {
   EXPECT_THAT([&] { runOn(geometryEngine(), example, request); },
               ThrowsMessage<InputError>(HasSubstr("`on`: the engine geometry has no such setting; "
                                                   "surface has")));
+}
+
+TEST(SurfaceEngine, CoversAPartOfABodyThatIsTurnedWithIt) {
+  const Example example = readExample(Source::of(bumps()));
+  TriangleMesh ball = makeSphere({0, 0, 0}, 12, 6);
+  for (const Vec3d& p : ball.positions) ball.colors.push_back({p.z > 0 ? 1.0f : 0.0f, 0, 0, 1});
+  for (auto& [a, b, c] : ball.triangles) std::swap(b, c);
+  Request request;
+  request.on = Source::of(ball);
+  request.settings = {{"span", "24"}, {"cover", "red"}, {"base", "under"}};
+  const Result result = runOn(surfaceEngine(), example, request);
+  EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("inside out")));
+  const MeshHealth health = realize(result, {&example, 1}).health;
+  EXPECT_TRUE(health.closed());
+  EXPECT_GT(health.signedVolume, 4.0 / 3 * std::numbers::pi * 12 * 12 * 12);
 }
 
 TEST(SurfaceEngine, SaysWhatItDidAboutAnUnsoundSurface) {

@@ -51,11 +51,8 @@ class Stubs(unittest.TestCase):
         self.folder = held.name
         shutil.copytree(PACKAGE, os.path.join(held.name, "exemplar"))
 
-    def test_are_what_the_module_is(self):
-        status, text = complaints(self.folder)
-        self.assertEqual(status, 0, text)
-
-    def test_differences_are_found(self):
+    def test_differ_from_the_module_only_where_that_is_planted(self):
+        # Once: mypy takes most of its time to read what numpy has.
         stub = os.path.join(self.folder, "exemplar", "__init__.pyi")
         with open(stub, encoding="utf-8") as file:
             text = file.read()
@@ -64,8 +61,8 @@ class Stubs(unittest.TestCase):
                        .replace("    def report(", "    def reported("))
         status, text = complaints(self.folder)
         self.assertNotEqual(status, 0)
-        self.assertIn("exemplar.read_mesh", text)
-        self.assertIn("exemplar.Result.reported", text)
+        named = {line.split()[0] for line in text.splitlines() if line.startswith("exemplar.")}
+        self.assertEqual(named, {"exemplar.read_mesh", "exemplar.Result.reported"}, text)
 
 
 if __name__ == "__main__":

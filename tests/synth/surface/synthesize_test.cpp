@@ -97,6 +97,54 @@ TEST(Synthesize, UnderneathItIsSolidAndCarvedOutOfItNothingSticksOut) {
   }
 }
 
+/// The part of a mesh above z = 0, of triangles that are wholly there.
+TriangleMesh upperPart(const TriangleMesh& mesh) {
+  TriangleMesh part;
+  part.positions = mesh.positions;
+  for (const auto& t : mesh.triangles)
+    if (std::ranges::all_of(t, [&](std::uint32_t v) { return mesh.positions[v].z > -1e-9; }))
+      part.triangles.push_back(t);
+  return part;
+}
+
+TEST(Synthesize, APartOfABodyIsCoveredAndTheRestIsAsItWas) {
+  const TriangleMesh ball = makeSphere({0, 0, 0}, 1, 12);
+  SurfaceOptions options;
+  options.span = 1.2;
+  options.body = ball;
+  double volumes[2];
+  for (const Base base : {Base::Under, Base::Carve}) {
+    options.base = base;
+    const SurfaceResult result = laid(littleMetal(), upperPart(ball), options);
+    expectSound(result);
+    const DistanceField& field = result.field;
+    double low = 0;  // solid below the plane
+    for (std::size_t s = 0; s < field.values.count(); ++s) {
+      const Vec3d p = field.position(cast<double>(field.values.ijk(s)));
+      const double r = length(p), value = field.values.values()[s];
+      if (p.z < -0.15 && std::abs(r - 1) > field.voxelSize) {
+        ASSERT_EQ(value < 0, r < 1);
+      }
+      if (base == Base::Carve && r > 1.02) {
+        ASSERT_GT(value, 0);
+      }
+      if (base == Base::Under && r < 0.97) {
+        ASSERT_LT(value, 0);
+      }
+      if (p.z < -0.15) low += std::clamp(0.5 - value / field.voxelSize, 0.0, 1.0);
+    }
+    // The ball below z = -.15 is a cap of height .85.
+    const double cap = std::numbers::pi * 0.85 * 0.85 * (3 - 0.85) / 3;
+    EXPECT_NEAR(low * std::pow(field.voxelSize, 3), cap, 0.02 * cap);
+    volumes[base == Base::Carve] = solidVolume(field);
+  }
+  const double whole = 4.0 / 3 * std::numbers::pi;
+  EXPECT_GT(volumes[0], 1.02 * whole);
+  EXPECT_LT(volumes[1], 0.98 * whole);
+  options.body = upperPart(ball);
+  EXPECT_THROW(laid(littleMetal(), upperPart(ball), options), InputError);
+}
+
 TEST(Synthesize, VolumeIsThatOfTheGroundAndTheMeanHeight) {
   const DistanceField example = littleMetal();
   const Slab slab(example);
