@@ -65,10 +65,10 @@ Decomposition layersOf(const Example& example, const LayeredSettings& settings, 
 }
 
 /// The part of the example that is to be filled; empty where there is none.
-Shape holeOf(const std::string& path, const Example& example) {
+Shape holeOf(const std::string& path, const Example& example, Warnings& warnings) {
   if (path.empty()) return {};
   const Map& map = example.map();
-  const MapLayer picture = readMapLayer(path, "inpaint");
+  const MapLayer picture = readOpaqueMapLayer(path, "inpaint");
   const Grid<float>& white = picture.planes.front();
   if (!white.sameSize(map.layers.front().planes.front())) {
     throw InputError(path + ": " + pixelsText(white.width(), white.height()) + "; " +
@@ -80,6 +80,8 @@ Shape holeOf(const std::string& path, const Example& example) {
       throw InputError(path + ": has colors; what is to be filled is said in black and white");
   Shape hole(Vec3i{white.width(), white.height(), 1});
   for (std::size_t p = 0; p < hole.count(); ++p) hole.data()[p] = white[p] > 0.5f;
+  if (std::ranges::any_of(white.values(), [](float value) { return value > 0 && value < 1; }))
+    warnings.push_back(path + ": has grays; what is more than half white is filled");
   const std::int64_t cells = insideOf(hole);
   if (cells == 0) throw InputError(path + ": nothing is white, so that nothing is to be filled");
   if (cells == static_cast<std::int64_t>(hole.count()))
@@ -142,8 +144,8 @@ class LayeredEngine final : public Engine {
         (140 + 16 * planes) * size.x * size.y + (240 + 16 * planes) * map.width() * map.height(),
         "layered synthesis", "ask for a smaller `size`");
     requireTexturePatch({map.width(), map.height(), 1}, settings.texture);
-    const Shape hole = holeOf(settings.inpaint, example);
     Result result;
+    const Shape hole = holeOf(settings.inpaint, example, result.warnings);
     const Decomposition found = layersOf(example, settings, hole, progress.part(0, 0.15));
     const int layers = layerCount(found.map);
     if (found.skipping > 0.15 && !settings.regions) {
@@ -151,6 +153,12 @@ class LayeredEngine final : public Engine {
           numberText(std::round(100 * found.skipping)) +
           " % of the steps between layers skip one, so that these are not layers on each other; "
           "try fewer `layers`, another `order`, or `regions`");
+    }
+    if (const double placed = placedShare(found.map); settings.regions && placed > 0.5) {
+      result.warnings.push_back(
+          "the halves of the example share " + numberText(std::round(100 * (1 - placed))) +
+          " % of their regions: it is a scene, with a top and a bottom or sides, and `regions` "
+          "knows no places; leave it out and give `paint`, or crop to what is alike everywhere");
     }
     const bool directed = orientation(found.map) > 1.5;
     settings.layers.shape.turns = settings.turns > 0 ? settings.turns : directed ? 2 : 4;

@@ -54,8 +54,8 @@ Row orientations() {
 Row assignment() {
   return choiceRow<O, AssignmentKind>(
       "assignment", [](O& o) -> AssignmentKind& { return o.layers.shape.assignment; },
-      "how the example's patches are dealt out: cheapest pairs first, or, on levels of up to 2,000 "
-      "patches, the optimum",
+      "how the example's patches are dealt out: cheapest pairs first, or the optimum, which takes "
+      "longer",
       {{"greedy", AssignmentKind::Greedy}, {"exact", AssignmentKind::Exact}});
 }
 Row certainty() {

@@ -98,7 +98,7 @@ void renumber(LayerVolume& labels, const std::vector<int>& order) {
 }
 
 LayerMap readLayerMap(const std::filesystem::path& path, int layers) {
-  const MapLayer picture = readMapLayer(path, "layers");
+  const MapLayer picture = readOpaqueMapLayer(path, "layers");
   if (picture.bits == 16) {
     // 8 bits are 257 steps of 16.
     for (const float gray : picture.planes[0].values()) {

@@ -80,6 +80,16 @@ MapLayer readMapLayer(const std::filesystem::path& path, const std::string& name
   return decodeMapLayer(readFile(path), path.string(), name, warnings);
 }
 
+MapLayer readOpaqueMapLayer(const std::filesystem::path& path, const std::string& name) {
+  Warnings dropped;
+  MapLayer layer = readMapLayer(path, name, &dropped);
+  if (!dropped.empty()) {
+    throw InputError(path.string() +
+                     ": is clear in places, which says nothing there; save it without opacity");
+  }
+  return layer;
+}
+
 void writeMapLayer(const std::filesystem::path& path, const MapLayer& layer) {
   if (layer.bits == 16) {
     writePng(path, imageOf<std::uint16_t>(layer));

@@ -44,6 +44,10 @@ MapLayer decodeMapLayer(std::string_view bytes, const std::string& file, const s
 MapLayer readMapLayer(const std::filesystem::path& path, const std::string& name,
                       Warnings* warnings = nullptr);
 
+/// The same of a picture that says where something is, a mask or a layer map: one that is not
+/// opaque everywhere is refused, because it does not say what lies under what is clear.
+MapLayer readOpaqueMapLayer(const std::filesystem::path& path, const std::string& name);
+
 /// Writes a layer as a `.png` of its own depth, whole or not at all. Throws `InputError`.
 void writeMapLayer(const std::filesystem::path& path, const MapLayer& layer);
 

@@ -26,11 +26,11 @@ struct LayerLikeness {
   std::optional<double> toExample, toResult;
   /// How evenly the example's boundary is used: exp(H) of the entropy H of which of its patches are
   /// the nearest of the result's, over how many there could be; near 0 where few places serve all.
-  /// An independent sample of one process has .3 to .7: what is nearest by chance is uneven.
+  /// Two independent samples of noise have .4 to .5, of discs that are all alike .15 to .25.
   std::optional<double> usage;
   /// The longest stretch of the result's boundary, in pixels, that is one of the example's, moved
-  /// and turned by quarters: where patches at every step differ in 3 % of their pixels at most.
-  /// Nothing in space.
+  /// and turned by quarters: where patches at every step differ in 3 % of their pixels at most. 12
+  /// to 20 in independent samples of noise. Nothing in space.
   std::optional<std::int64_t> longestRun;
   /// Kolmogorov-Smirnov distance of the sizes of components, 0..1; 0 is best. What patches do not
   /// see. Nothing where either has none.

@@ -176,6 +176,10 @@ struct Room {
   Shape mask, start;
 };
 
+/// Votes of the layer below change what the coarser resolution made where they agree by so much.
+/// Those that are split break up its shapes and make their boundary a fifth too long.
+constexpr float kAgreed = 0.9f;
+
 /// `share` of the cells is the layer above's. Of what is not open the mask holds all.
 Room roomAbove(const OptimizedShape& below, const ShapeExample& example, const Shape& above,
                const Shape* coarser, std::int64_t target, const Shape* open,
@@ -222,7 +226,8 @@ Room roomAbove(const OptimizedShape& below, const ShapeExample& example, const S
   } else {
     room.start = enlarged(*coarser, size);
     for (std::size_t p = 0; p < shape.count(); ++p)
-      if (votes.weight(p) >= 0.4f * median) room.start.data()[p] = votes.share(p) > 0.5f;
+      if (votes.weight(p) >= 0.4f * median && std::abs(votes.share(p) - 0.5f) >= kAgreed - 0.5f)
+        room.start.data()[p] = votes.share(p) > 0.5f;
   }
   for (std::size_t p = 0; p < shape.count(); ++p) room.start.data()[p] &= room.mask.data()[p];
   setArea(room.start, target, votes, {.mask = &room.mask, .open = open}, random.fork(1));

@@ -411,6 +411,27 @@ SynthesizedLayers synthesizeRegions(const LayerVolume& example, const Vec3i& siz
   return Regions(example, size, options).run(progress);
 }
 
+double placedShare(const LayerVolume& map) {
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int half = map.size()[axis] / 2;
+    if (half == 0) continue;
+    std::array<std::int64_t, kMostLayers + 1> low{}, high{};
+    std::int64_t lowCells = 0;
+    forEachCell(map.size(), [&](const Vec3i& p) {
+      lowCells += p[axis] < half;
+      ++(p[axis] < half ? low : high)[map[p]];
+    });
+    const auto highCells = static_cast<std::int64_t>(map.count()) - lowCells;
+    double differing = 0;
+    for (std::size_t k = 0; k < low.size(); ++k)
+      differing += std::abs(static_cast<double>(low[k]) / static_cast<double>(lowCells) -
+                            static_cast<double>(high[k]) / static_cast<double>(highCells));
+    most = std::max(most, differing / 2);
+  }
+  return most;
+}
+
 std::vector<Array3D<float>> regionGuides(const LayerVolume& map, int count) {
   const float apart = std::sqrt(0.5f);  // two planes differ
   std::vector<Array3D<float>> guides;

@@ -23,6 +23,12 @@ namespace exemplar {
 SynthesizedLayers synthesizeRegions(const LayerVolume& example, const Vec3i& size,
                                     const LayerOptions& options, const Progress& progress = {});
 
+/// How much the regions' shares differ between the halves of a map, left and right or top and
+/// bottom (in space also front and back), whichever differ more: 0 where they are the same, 1 where
+/// no region is in both. Regions that have a place, as sky and ground have in a scene, are not made
+/// like the example's by `synthesizeRegions`, which knows no places.
+double placedShare(const LayerVolume& map);
+
 /// For each region, 1 to `count`, where it is: what guides a texture of regions without an order.
 /// Any two differ as much as neighboring layers do.
 std::vector<Array3D<float>> regionGuides(const LayerVolume& map, int count);

@@ -231,6 +231,15 @@ LayerVolume twoKinds(int side) {
   return map;
 }
 
+TEST(PlacedShare, TellsScenesFromTextures) {
+  EXPECT_LT(placedShare(twoKinds(120)), 0.2);
+  LayerVolume scene = twoKinds(120);  // ground below a sky
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 120; ++x) scene(x, y, 0) = 4;
+  EXPECT_EQ(placedShare(scene), 1);
+  EXPECT_EQ(placedShare(LayerVolume(Vec3i{1, 1, 1}, 2)), 0);
+}
+
 TEST(SynthesizeRegions, KeepsApartWhatIsApart) {
   const LayerVolume example = twoKinds(162);
   const auto touching = [](const LayerVolume& map) {
