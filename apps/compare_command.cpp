@@ -120,7 +120,8 @@ void compareEngines(const Options& options, Terminal& terminal) {
                                    readable(seeds.rolledDiversity));
     for (const auto& [a, b] : seeds.equal)
       terminal.warn(seeds.engine + ": seeds " + std::to_string(a) + " and " + std::to_string(b) +
-                    " gave one result, moved or not; try other axes (`stationary`)");
+                    " gave one result, moved or not" +
+                    (isTerrain ? "" : "; try other axes (`stationary`)"));
   };
   comparison.wrote = [&](const std::filesystem::path& path) { terminal.noteFile(path); };
   ReadOptions reading = readingOf(options.settings, Form::Field);

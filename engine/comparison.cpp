@@ -14,6 +14,7 @@
 #include "core/file.h"
 #include "core/json_text.h"
 #include "core/memory.h"
+#include "engine/compared_seeds.h"
 #include "engine/engines.h"
 #include "engine/json.h"
 #include "engine/measured.h"
@@ -425,14 +426,9 @@ ComparedRun readable(const Json& run, bool again) {
   return result;
 }
 
-/// Results that are less than this apart after the best roll are one, moved.
-constexpr double kSameResult = 0.1;
-
 /// How far an engine's results are apart, by their files.
-ComparedSeeds comparedSeeds(const std::string& engine, const Json& runs, const fs::path& folder,
+ComparedSeeds seedsOfFields(const std::string& engine, const Json& runs, const fs::path& folder,
                             const Progress& progress) {
-  ComparedSeeds compared;
-  compared.engine = engine;
   std::vector<Occupancy> results;
   std::vector<std::uint64_t> seeds;
   for (const Json& run : runs) {
@@ -444,43 +440,10 @@ ComparedSeeds comparedSeeds(const std::string& engine, const Json& runs, const f
     results.pop_back();
     seeds.pop_back();
   }
-  compared.results = static_cast<int>(results.size());
-  compared.diversity = diversity(results);
-  const double pairs =
-      std::max(1.0, static_cast<double>(results.size() * (results.size() - 1)) / 2);
-  double done = 0;
-  for (std::size_t a = 0; a < results.size(); ++a)
-    for (std::size_t b = a + 1; b < results.size(); ++b, ++done) {
-      const double apart = rolledDistance(results[a], results[b], {},
-                                          progress.part(done / pairs, (done + 1) / pairs))
-                               .distance;
-      compared.rolledDiversity += apart / pairs;
-      if (apart < kSameResult) compared.equal.emplace_back(seeds[a], seeds[b]);
-    }
-  return compared;
-}
-
-std::string twoDigits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
-
-/// Says it in the comparison's JSON, and as a note of the page.
-void addSeeds(const ComparedSeeds& seeds, Json& comparison) {
-  Json equal = Json::array();
-  for (const auto& [a, b] : seeds.equal) equal.push_back({a, b});
-  comparison["seeds"].push_back({{"engine", seeds.engine},
-                                 {"results", seeds.results},
-                                 {"diversity", seeds.diversity},
-                                 {"rolled_diversity", seeds.rolledDiversity},
-                                 {"equal", equal}});
-  std::string note = seeds.engine + ": seeds differ in " + twoDigits(seeds.diversity) +
-                     " of their solid (Div), " + twoDigits(seeds.rolledDiversity) +
-                     " after the best roll of one onto the other.";
-  for (const auto& [a, b] : seeds.equal)
-    note += " Seeds " + std::to_string(a) + " and " + std::to_string(b) + " gave one result.";
-  comparison["notes"].push_back(note);
+  return comparedSeeds(engine, seeds, [&](std::size_t a, std::size_t b) {
+    return SeedDistance{1 - intersectionOverUnion(results[a], results[b]),
+                        rolledDistance(results[a], results[b], {}, progress).distance};
+  });
 }
 
 }  // namespace
@@ -560,9 +523,9 @@ void compare(const Example& example, const ComparisonOptions& options,
   for (const ComparedEngine& compared : options.engines) {
     progress.report("comparing seeds", 0.96);
     const ComparedSeeds seeds =
-        comparedSeeds(compared.name, comparison.at("runs"), folder, progress.part(0.96, 0.96));
+        seedsOfFields(compared.name, comparison.at("runs"), folder, progress.part(0.96, 0.96));
     if (seeds.results < 2) continue;
-    addSeeds(seeds, comparison);
+    addSeeds(seeds, "their solid", comparison);
     if (options.compared) options.compared(seeds);
   }
   progress.report("writing the report", 0.96);

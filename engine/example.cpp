@@ -326,6 +326,7 @@ std::vector<Example> readExamples(std::span<const Source> sources, const ReadOpt
     if (n > 0 && examples[n].form() == Form::Field) sampleAlike(examples[n], examples[0], part);
   }
   if (examples[0].form() == Form::Labels) numberAlike(examples);
+  if (examples[0].form() == Form::Heights) joinTiles(examples);
   return examples;
 }
 

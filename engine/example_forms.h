@@ -37,6 +37,9 @@ void sampleAlike(Example& example, const Example& first, const Progress& progres
 
 /// Throws `InputError` where a height map has other cells than `first`.
 void requireAlike(const Example& example, const Example& first);
+/// Makes one example of height maps that are tiles side by side, in the place of the first of them.
+/// Warns of those that lie side by side and do not fit.
+void joinTiles(std::vector<Example>& examples);
 
 /// Gives the examples, all labels, one numbering of labels.
 void numberAlike(std::vector<Example>& examples);

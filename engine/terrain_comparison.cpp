@@ -14,6 +14,7 @@
 #include "core/file.h"
 #include "core/json_text.h"
 #include "core/memory.h"
+#include "engine/compared_seeds.h"
 #include "engine/json.h"
 #include "engine/measured.h"
 #include "engine/page.h"
@@ -21,6 +22,7 @@
 #include "maps/height_map_file.h"
 #include "maps/map.h"
 #include "measure/figures.h"
+#include "measure/terrain_diversity.h"
 #include "mesh/image.h"
 #include "preview/relief.h"
 #include "sdf/height_map.h"
@@ -32,6 +34,8 @@ namespace fs = std::filesystem;
 
 /// Streams of pictures are where so many cells drain through.
 constexpr std::uint32_t kStreams = 200;
+/// How many seeds of an engine a picture shows side by side.
+constexpr std::size_t kShownSeeds = 3;
 
 /// What an engine made of the example with one seed.
 struct Run {
@@ -153,10 +157,10 @@ class Comparison {
   Vec3d scale_;
 };
 
-std::string fileName(std::string engine, std::uint64_t seed) {
+std::string fileName(std::string engine) {
   std::ranges::replace_if(
       engine, [](char c) { return c == ':' || c == '=' || c == ',' || c == '/'; }, '-');
-  return engine + "-" + std::to_string(seed);
+  return engine;
 }
 
 /// Maps side by side at one scale, with their streams, in two lights.
@@ -168,6 +172,34 @@ Image8 relief(std::span<const HeightMap* const> maps, const RenderOptions& pictu
   options.streamCells = kStreams;
   options.longest = std::max(picture.width, picture.height);
   return renderRelief(shown, options, progress);
+}
+
+/// An engine's results of several seeds.
+struct Seeds {
+  std::string engine;
+  std::vector<std::uint64_t> seeds;
+  std::vector<TerrainLayout> layouts;
+  std::vector<HeightMap> shown;  // the first ones
+
+  void add(Run&& run) {
+    seeds.push_back(run.said.seed);
+    layouts.emplace_back(run.heights.heights);
+    if (shown.size() < kShownSeeds) shown.push_back(std::move(run.heights));
+  }
+  ComparedSeeds compared(const Progress& progress) const {
+    return comparedSeeds(engine, seeds, [&](std::size_t a, std::size_t b) {
+      const TerrainDistance distance = distanceBetween(layouts[a], layouts[b], progress);
+      return SeedDistance{distance.plain, distance.moved};
+    });
+  }
+};
+
+/// The example beside one map of each.
+std::vector<const HeightMap*> besideExample(const HeightMap& example,
+                                            std::span<const HeightMap> maps) {
+  std::vector<const HeightMap*> all{&example};
+  for (const HeightMap& map : maps) all.push_back(&map);
+  return all;
 }
 
 }  // namespace
@@ -213,18 +245,21 @@ void compareTerrain(const Source& source, const ReadOptions& reading,
     report["figures"].push_back(
         {{"group", figure.group}, {"key", figure.key}, {"meaning", figure.meaning}});
   }
-  std::vector<HeightMap> firsts;
+  std::vector<Seeds> made;
+  for (const ComparedEngine& compared : options.engines)
+    made.push_back({compared.name, {}, {}, {}});
   const std::size_t runs = options.engines.size() * static_cast<std::size_t>(options.seeds);
   std::size_t done = 0;
   for (int s = 0; s < options.seeds; ++s) {
-    for (const ComparedEngine& compared : options.engines) {
+    for (std::size_t e = 0; e < options.engines.size(); ++e) {
+      const ComparedEngine& compared = options.engines[e];
       const std::uint64_t seed = options.firstSeed + static_cast<std::uint64_t>(s);
       const double from = 0.05 + 0.9 * static_cast<double>(done++) / static_cast<double>(runs);
       const Progress part = progress.part(from, from + 0.9 / static_cast<double>(runs));
       Run run = comparison.run(compared, seed, part.part(0, 0.9));
       Json json{{"engine", compared.name}, {"seed", seed}, {"status", run.said.status}};
       if (run.said.status == "complete") {
-        const std::string name = fileName(compared.name, seed);
+        const std::string name = fileName(compared.name) + "-" + std::to_string(seed);
         json["seconds"] = run.said.seconds;
         if (run.peakBytes) json["peak_memory_bytes"] = *run.peakBytes;
         json["figures"] = toJson(figures(run.said.likeness));
@@ -237,18 +272,31 @@ void compareTerrain(const Source& source, const ReadOptions& reading,
         write(name + ".tif",
               [&](const fs::path& path) { writeHeightMap(path, run.heights, {}, {}); });
         if (page.bytes() < kReportBytes / 2) page.addPicture(name, image);
-        if (s == 0) firsts.push_back(std::move(run.heights));
+        if (finished) finished(run.said);
+        made[e].add(std::move(run));
       } else {
         json["why"] = run.said.why;
+        if (finished) finished(run.said);
       }
-      if (finished) finished(run.said);
       report["runs"].push_back(std::move(json));
     }
   }
+  std::vector<HeightMap> firsts;
+  for (Seeds& seeds : made) {
+    if (seeds.seeds.size() > 1) {
+      const ComparedSeeds compared = seeds.compared(progress.part(0.95, 0.95));
+      addSeeds(compared, "their layout", report);
+      if (options.compared) options.compared(compared);
+      const std::string name = fileName(seeds.engine) + "-seeds";
+      const Image8 image =
+          relief(besideExample(example, seeds.shown), options.picture, progress.part(0.95, 0.96));
+      write(name + ".png", [&](const fs::path& path) { writePng(path, image); });
+    }
+    if (!seeds.shown.empty()) firsts.push_back(std::move(seeds.shown.front()));
+  }
   if (!firsts.empty()) {
-    std::vector<const HeightMap*> all{&example};
-    for (const HeightMap& map : firsts) all.push_back(&map);
-    const Image8 image = relief(all, options.picture, progress.part(0.95, 0.98));
+    const Image8 image =
+        relief(besideExample(example, firsts), options.picture, progress.part(0.96, 0.98));
     write("compare.png", [&](const fs::path& path) { writePng(path, image); });
   }
   progress.report("writing the report", 0.98);

@@ -24,13 +24,14 @@ struct ComparedTerrain {
 };
 
 /// Runs every engine with every seed; measures, draws and writes each result into the folder:
-/// heights as .tif and relief beside the example's as .png; all first seeds together, at one scale,
-/// as compare.png, and the whole as compare.json and report.html. Nothing is taken from what the
-/// folder holds. `terrain` works on the heights, `layered` on a picture of them from the lowest to
-/// the highest; engines on distances on a volume of the example, as `reading` samples it, and are
-/// measured at its resolution, against the example at that resolution. Others refuse it. `picture`
-/// says how large pictures are, and gets the warnings of what was read. Throws `InputError` and
-/// `Cancelled`.
+/// heights as .tif and relief beside the example's as .png; the first three seeds of each engine as
+/// ENGINE-seeds.png, and all first seeds together, at one scale, as compare.png; the whole, with
+/// how far seeds are apart (`distanceBetween`), as compare.json and report.html. Nothing is taken
+/// from what the folder holds. `terrain` works on the heights, `layered` on a picture of them from
+/// the lowest to the highest; engines on distances on a volume of the example, as `reading` samples
+/// it, and are measured at its resolution, against the example at that resolution. Others refuse
+/// it. `picture` says how large pictures are, and gets the warnings of what was read. Throws
+/// `InputError` and `Cancelled`.
 void compareTerrain(const Source& source, const ReadOptions& reading,
                     const ComparisonOptions& options,
                     const std::function<void(const ComparedTerrain&)>& finished = {},

@@ -112,6 +112,15 @@ const SettingTable<TerrainSettings>& terrainSettings() {
   return table;
 }
 
+void warnOfHoles(std::span<const Example> examples, std::vector<std::string>& warnings) {
+  for (const Example& example : examples) {
+    const std::size_t holes = rangeOf(example.heights().heights)->holes;
+    if (holes == 0) continue;
+    warnings.push_back(example.name() + ": nothing is made of its " + counted(holes, "point") +
+                       " without data; `fill` makes land of them, `keep-holes` more of them");
+  }
+}
+
 class TerrainEngine final : public Engine {
  public:
   std::string_view name() const override { return "terrain"; }
@@ -225,6 +234,7 @@ class TerrainEngine final : public Engine {
                          {"outlets", made.outlets},
                          {"deepest_cut", made.deepestCut},
                          {"mean_cut", made.meanCut}};
+    if (!settings.fill && !settings.keepHoles) warnOfHoles(examples, result.warnings);
     return result;
   }
 };

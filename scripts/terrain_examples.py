@@ -3,7 +3,7 @@
 
     scripts/terrain_examples.py FOLDER    eroded.asc, noise.asc, dunes.asc, coast.asc and lakes.asc
 
-Needs numpy; eroded land takes a minute.
+Needs numpy.
 """
 import heapq
 import os
@@ -23,50 +23,49 @@ def fractal(shape, beta, seed):
     return noise / noise.std()
 
 
-def steepest_descent(heights):
-    """For each cell the lower neighbor down the steepest way, itself in pits, and the distance."""
+def flood(heights):
+    """Spill levels, the cells from the border up, and from which cell water reached each (priority
+    flood); of a cell on the border, from itself."""
     rows, columns = heights.shape
-    numbers = np.arange(heights.size).reshape(heights.shape)
-    steepest = np.zeros(heights.shape)
-    receiver, distance = numbers.copy(), np.ones(heights.shape)
-    for dy, dx in ((y, x) for y in (-1, 0, 1) for x in (-1, 0, 1) if x or y):
-        here = (slice(max(0, -dy), rows - max(0, dy)), slice(max(0, -dx), columns - max(0, dx)))
-        there = (slice(max(0, dy), rows - max(0, -dy)), slice(max(0, dx), columns - max(0, -dx)))
-        slope = np.full(heights.shape, -1.0)
-        slope[here] = (heights[here] - heights[there]) / np.hypot(dx, dy)
-        neighbor = numbers.copy()
-        neighbor[here] = numbers[there]
-        steeper = slope > steepest
-        steepest[steeper] = slope[steeper]
-        receiver[steeper] = neighbor[steeper]
-        distance[steeper] = np.hypot(dx, dy)
-    return receiver.ravel(), distance.ravel()
+    own = heights.ravel().tolist()
+    levels, came_from, order = [None] * len(own), list(range(len(own))), []
+    edge = [(own[y * columns + x], y * columns + x) for y in range(rows) for x in range(columns)
+            if y in (0, rows - 1) or x in (0, columns - 1)]
+    for level, cell in edge:
+        levels[cell] = level
+    heapq.heapify(edge)
+    while edge:
+        level, cell = heapq.heappop(edge)
+        order.append(cell)
+        y, x = divmod(cell, columns)
+        for v in range(max(0, y - 1), min(rows, y + 2)):
+            for u in range(max(0, x - 1), min(columns, x + 2)):
+                near = v * columns + u
+                if levels[near] is None:
+                    levels[near] = max(level, own[near])
+                    came_from[near] = cell
+                    heapq.heappush(edge, (levels[near], near))
+    return np.array(levels).reshape(heights.shape), order, came_from
 
 
-def eroded(side=200, steps=120, erosion=0.05, uplift=6.0, creep=0.05):
-    """Uplift against rivers (stream power law, exponents 1/2 and 1, implicit) and creep of slopes."""
-    random = np.random.default_rng(5)
-    heights = fractal((side, side), 2, 2) * 5 + 10
-    border = np.ones(heights.shape, bool)
-    border[1:-1, 1:-1] = False
-    for _ in range(steps):
-        rough = heights + random.random(heights.shape) * 1e-3
-        receiver, distance = steepest_descent(rough)
-        down = np.argsort(-rough.ravel()).tolist()
-        to = receiver.tolist()
+def eroded(side=256):
+    """Land that rivers have shaped: along them slopes fall with the area that drains through (the
+    steady state of the stream power law); no hollows."""
+    heights = fractal((side, side), 3, 2)
+    rough = np.clip(fractal((side, side), 3, 7), -2, 2).ravel().tolist()
+    for _ in range(4):
+        _, order, down = flood(heights)
         area = [1.0] * heights.size
-        for cell in down:
-            if to[cell] != cell:
-                area[to[cell]] += area[cell]
-        factor = (erosion * np.sqrt(area) / distance).tolist()
-        new = np.where(border, heights, heights + uplift).ravel().tolist()
-        fixed = border.ravel().tolist()
-        for cell in reversed(down):
-            if not fixed[cell] and to[cell] != cell:
-                new[cell] = (new[cell] + factor[cell] * new[to[cell]]) / (1 + factor[cell])
+        for cell in reversed(order):
+            if down[cell] != cell:
+                area[down[cell]] += area[cell]
+        new = [0.0] * heights.size
+        for cell in order:
+            if down[cell] != cell:
+                apart = abs(cell - down[cell])
+                length = 1 if apart in (1, side) else 2**0.5
+                new[cell] = new[down[cell]] + 10 * (3 + rough[cell]) * area[cell] ** -0.45 * length
         heights = np.array(new).reshape(heights.shape)
-        p = np.pad(heights, 1, mode="edge")
-        heights += creep * (p[:-2, 1:-1] + p[2:, 1:-1] + p[1:-1, :-2] + p[1:-1, 2:] - 4 * heights)
     return heights
 
 
@@ -86,31 +85,12 @@ def dunes(side=256):
 
 def coast(side=300):
     """Land that falls toward the west, under a sea at 0."""
-    return np.maximum(fractal((side, side), 3.4, 11) * 120 + (np.arange(side) - 150) * 1.2, 0)
-
-
-def filled(heights):
-    """Each hollow up to where it spills over (priority flood)."""
-    rows, columns = heights.shape
-    levels = np.full(heights.shape, np.inf)
-    border = [(heights[y, x], y, x) for y in range(rows) for x in range(columns)
-              if y in (0, rows - 1) or x in (0, columns - 1)]
-    for level, y, x in border:
-        levels[y, x] = level
-    heapq.heapify(border)
-    while border:
-        level, y, x = heapq.heappop(border)
-        for v in range(max(0, y - 1), min(rows, y + 2)):
-            for u in range(max(0, x - 1), min(columns, x + 2)):
-                if levels[v, u] == np.inf:
-                    levels[v, u] = max(level, heights[v, u])
-                    heapq.heappush(border, (levels[v, u], v, u))
-    return levels
+    return np.maximum(fractal((side, side), 3.4, 11) * 80 + (np.arange(side) - 120) * 2.4, 0)
 
 
 def lakes(side=320):
     """Hills whose hollows are lakes up to where they spill over."""
-    return filled(fractal((side, side), 3.2, 12) * 100 + 300)
+    return flood(fractal((side, side), 3.2, 12) * 100 + 300)[0]
 
 
 CELLS = {"eroded": 30, "noise": 20, "dunes": 5, "coast": 20, "lakes": 20}  # meters

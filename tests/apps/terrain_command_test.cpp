@@ -20,6 +20,7 @@ namespace exemplar {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class TerrainCommand : public testing::Test {
  protected:
@@ -97,7 +98,17 @@ TEST_F(TerrainCommand, ComparesEnginesByHeights) {
       EXPECT_LE(flooded, 2 * wanted);
     }
   }
-  for (const char* file : {"example.png", "compare.png", "terrain-1.png", "report.html"})
+  // Seeds of terrain are land of their own.
+  EXPECT_THAT(run.out, HasSubstr("Div of 2 seeds"));
+  ASSERT_EQ(json.at("seeds").size(), 2u);
+  for (const auto& seeds : json.at("seeds")) {
+    EXPECT_EQ(seeds.at("results"), 2);
+    EXPECT_GT(seeds.at("rolled_diversity"), 0.3);
+    EXPECT_LE(seeds.at("rolled_diversity"), seeds.at("diversity"));
+    EXPECT_TRUE(seeds.at("equal").empty());
+  }
+  for (const char* file :
+       {"example.png", "compare.png", "terrain-1.png", "terrain-seeds.png", "report.html"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "c" / file)) << file;
 }
 
@@ -196,6 +207,72 @@ TEST_F(TerrainCommand, FillsHolesOrKeepsThem) {
   const double kept = holes(of("--keep-holes --seed 1"));
   EXPECT_GT(kept, 0.2 * holes(holed));
   EXPECT_LT(kept, 5 * holes(holed));
+}
+
+TEST_F(TerrainCommand, JoinsTilesAndSaysWhichDoNotLineUp) {
+  const HeightMap whole = hills(120, 64, 10);
+  const auto tile = [&](const char* name, double west, float times) {
+    HeightMap part{Grid<float>(60, 64), 10, true};
+    const int from = west < 600 ? 0 : 60;
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 60; ++x) part.heights(x, y) = times * whole.at(from + x, y);
+    part.corner = MapCorner{west, 0};
+    writeHeightMap(folder_ / name, part);
+  };
+  tile("west.asc", 0, 1);
+  tile("east.asc", 600, 1);
+  tile("off.asc", 604, 1);
+  tile("feet.asc", 600, 3.28f);
+  const auto of = [&](const std::string& other) {
+    const auto run =
+        runExemplar("synth west.asc --with " + other + " --scale 1,1,1 -o o.asc", folder_.path());
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run;
+  };
+  const auto joined = of("east.asc");
+  EXPECT_THAT(joined.out, HasSubstr("2 tiles side by side, joined: height map of 120 x 64"));
+  EXPECT_THAT(joined.err, Not(HasSubstr("warning")));
+  EXPECT_EQ(readHeightMap(folder_ / "o.asc").width(), 120);
+  EXPECT_THAT(of("off.asc").err,
+              HasSubstr("off.asc: lies 60.4 cells east and 0 north of west.asc, not whole"));
+  EXPECT_EQ(readHeightMap(folder_ / "o.asc").width(), 60);
+  EXPECT_THAT(of("feet.asc").err, HasSubstr("feet.asc: its heights differ by"));
+}
+
+TEST_F(TerrainCommand, SaysWhatIsDoubtfulAboutAMapAndWhatToDo) {
+  HeightMap holed = hills(64, 64, 10), flat = holed;
+  for (int x = 20; x < 40; ++x) holed.heights(x, 30) = std::nanf("");
+  for (float& h : flat.heights.values()) h = 7;
+  writeHeightMap(folder_ / "holes.asc", holed);
+  writeHeightMap(folder_ / "flat.asc", flat);
+  Image8 gray{64, 64, 1, {}}, palette{64, 64, 3, {}};
+  for (int p = 0; p < 64 * 64; ++p) {
+    const auto h =
+        static_cast<std::uint8_t>(hills(64, 64, 10).heights[static_cast<std::size_t>(p)] / 2);
+    gray.pixels.push_back(h);
+    for (const int share : {1, 2, 3})
+      palette.pixels.push_back(static_cast<std::uint8_t>(h / share));
+  }
+  writePng(folder_ / "gray.png", gray);
+  writePng(folder_ / "color.png", palette);
+  const auto err = [&](const std::string& arguments, int status) {
+    const auto run = runExemplar("synth " + arguments + " -o o.tif", folder_.path());
+    EXPECT_EQ(run.status, status) << arguments << run.err;
+    return run.err;
+  };
+  EXPECT_THAT(err("holes.asc", 0), HasSubstr("nothing is made of its 20 points without data; "
+                                             "--fill makes land of them"));
+  EXPECT_THAT(err("holes.asc --fill", 0), Not(HasSubstr("nothing is made")));
+  EXPECT_THAT(err("holes.asc --keep-holes", 0), Not(HasSubstr("nothing is made")));
+  EXPECT_THAT(err("flat.asc", 0), HasSubstr("all its heights are 7"));
+  EXPECT_THAT(err("gray.png", 0), HasSubstr("terraces on slopes; save it with 16 bits"));
+  EXPECT_THAT(err("color.png --engine terrain", 2), HasSubstr("a height map must be gray"));
+  writeHeightMap(folder_ / "coarse.asc", hills(64, 64, 20));
+  EXPECT_THAT(err("e.asc --with coarse.asc", 2), HasSubstr("have cells of one size"));
+  writeHeightMap(folder_ / "small.asc", hills(12, 40, 10));
+  EXPECT_THAT(err("small.asc", 2), HasSubstr("at least 16 x 16 samples"));
+  writeFile(folder_ / "rect.asc", "ncols 2\nnrows 2\ndx 1\ndy 2\n1 2 3 4\n");
+  EXPECT_THAT(err("rect.asc", 2), HasSubstr("cells must be square"));
 }
 
 TEST_F(TerrainCommand, RefusesWhatCannotBeInOneLine) {
