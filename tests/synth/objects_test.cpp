@@ -15,6 +15,7 @@
 
 #include "core/cells.h"
 #include "core/error.h"
+#include "synth/geometry/objects/object_kind.h"
 #include "synth/geometry/objects/part_exchange.h"
 #include "synth/geometry/objects/slice_path.h"
 #include "tests/synth/fields.h"
@@ -146,6 +147,21 @@ TEST(FreeStanding, HasAirOnAllSides) {
   DistanceField cut = boulder();
   cut.values(0, 17, 17) = -1;
   EXPECT_FALSE(isFreeStanding(cut));
+}
+
+TEST(ObjectKind, IsByFacesEdgesAndThickness) {
+  EXPECT_EQ(objectKind(village()), ObjectKind::Planes);
+  EXPECT_EQ(objectKind(colonnade()), ObjectKind::Planes);
+  EXPECT_EQ(objectKind(boulder()), ObjectKind::Lump);
+  EXPECT_EQ(objectKind(tree()), ObjectKind::Limbs);
+  // Turned about the vertical, what has edges still has them.
+  const DistanceField turned = sampled({64, 64, 20}, [](const Vec3d& p) {
+    const Vec3d q{0.8 * (p.x - 31.5) + 0.6 * (p.y - 31.5), 0.8 * (p.y - 31.5) - 0.6 * (p.x - 31.5),
+                  p.z - 9.5};
+    return box(q, {0, 0, 0}, {24, 4, 5});
+  });
+  EXPECT_EQ(objectKind(turned), ObjectKind::Planes);
+  EXPECT_EQ(objectKind(constant({8, 8, 8}, 1)), ObjectKind::Limbs);
 }
 
 TEST(SliceDocking, IsFreeWhereSlicesRepeatAndDearWhereTheyDoNot) {

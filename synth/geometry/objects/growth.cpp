@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -14,6 +13,7 @@
 
 #include "core/cells.h"
 #include "core/parallel.h"
+#include "synth/geometry/objects/object_kind.h"
 #include "synth/geometry/voting/voting.h"
 
 namespace exemplar {
@@ -29,15 +29,6 @@ constexpr int kCoarseSide = 40;
 /// and of the stretched example is near the other; else it is made again from a finer level.
 constexpr float kNear = 3;
 constexpr double kAgree = 0.75;
-
-/// What is at most this thick, of its longest side, is limbs and walls: half its thickness.
-constexpr double kThin = 1.0 / 8;
-
-/// Directions that a surface faces are sorted by a cube whose sides have so many fields along
-/// an edge; an object is made of planes where so much of its surface faces so many of them.
-constexpr int kFields = 9;
-constexpr std::size_t kFacings = 8;
-constexpr double kPlanes = 0.45;
 
 /// A sample is shown from at most so far from where the stretched object is, samples.
 constexpr int kOriginReach = 4;
@@ -65,54 +56,6 @@ Array3D<Vec3i> startOf(const StretchedObject& stretched, const Vec3i& example, i
     }
   });
   return start;
-}
-
-/// How a growing object is made.
-enum class Kind {
-  Planes,  ///< stretched as space is: a building
-  Limbs,   ///< along its medial axis: a tree, a vase
-  Lump     ///< its surface is made anew of its parts: a boulder
-};
-
-/// Which field of a cube a direction passes through.
-std::size_t facingOf(const Vec3f& direction) {
-  int longest = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (std::abs(direction[axis]) > std::abs(direction[longest])) longest = axis;
-  std::size_t field = direction[longest] < 0 ? 1 : 0;
-  const float scale = 1 / std::max(1e-9F, std::abs(direction[longest]));
-  for (int axis = 0; axis < 3; ++axis) {
-    const float at = axis == longest ? 0 : (direction[axis] * scale + 1) / 2 * kFields;
-    field = field * kFields +
-            static_cast<std::size_t>(std::clamp<int>(static_cast<int>(at), 0, kFields - 1));
-  }
-  return field * 3 + static_cast<std::size_t>(longest);
-}
-
-Kind kindOf(const DistanceField& example) {
-  const Array3D<float>& values = example.values;
-  const auto voxel = static_cast<float>(example.voxelSize);
-  const Vec3i n = example.size();
-  std::vector<std::int64_t> facings(std::size_t{2} * 3 * kFields * kFields * kFields);
-  std::int64_t surface = 0;
-  float deepest = 0;
-  forEachCell(n, [&](const Vec3i& p) {
-    deepest = std::max(deepest, -values[p]);
-    if (std::abs(values[p]) > voxel / 2) return;
-    Vec3f slope;
-    for (int axis = 0; axis < 3; ++axis) {
-      Vec3i step;
-      step[axis] = 1;
-      slope[axis] = values[values.clamped(p + step)] - values[values.clamped(p - step)];
-    }
-    ++surface;
-    ++facings[facingOf(slope)];
-  });
-  std::partial_sort(facings.begin(), facings.begin() + kFacings, facings.end(), std::greater<>());
-  const auto planes = std::accumulate(facings.begin(), facings.begin() + kFacings, std::int64_t{0});
-  if (static_cast<double>(planes) > kPlanes * static_cast<double>(surface)) return Kind::Planes;
-  return deepest > kThin * voxel * static_cast<float>(std::max({n.x, n.y, n.z})) ? Kind::Lump
-                                                                                 : Kind::Limbs;
 }
 
 /// The sample of the example nearest to a place that is on the same side of the surface, or just
@@ -185,14 +128,14 @@ class Growing {
 
   SynthesisResult run(const Progress& progress) {
     progress.report("stretching the object", 0);
-    Kind kind = kindOf(example_);
+    ObjectKind kind = objectKind(example_);
     // Parts that are repeated along an axis have no one place on it.
-    if (kind == Kind::Limbs && !std::ranges::all_of(options_.places, isInOrder))
-      kind = Kind::Planes;
-    const Progress first = progress.part(0, kind == Kind::Lump ? 0.1 : 1);
-    stretched_ = kind == Kind::Limbs ? stretchSkeleton(example_, options_.places, first)
-                                     : stretchSpace(example_, options_.places, first);
-    if (kind != Kind::Lump) return shown(example_, stretched_);
+    if (kind == ObjectKind::Limbs && !std::ranges::all_of(options_.places, isInOrder))
+      kind = ObjectKind::Planes;
+    const Progress first = progress.part(0, kind == ObjectKind::Lump ? 0.1 : 1);
+    stretched_ = kind == ObjectKind::Limbs ? stretchSkeleton(example_, options_.places, first)
+                                           : stretchSpace(example_, options_.places, first);
+    if (kind != ObjectKind::Lump) return shown(example_, stretched_);
     voting_.size = stretched_.values.size();
     SynthesisResult best;
     double most = -1;
