@@ -13,6 +13,7 @@
 
 #include "core/cells.h"
 #include "core/parallel.h"
+#include "sdf/resample.h"
 #include "synth/geometry/objects/object_kind.h"
 #include "synth/geometry/voting/voting.h"
 
@@ -34,9 +35,11 @@ constexpr double kAgree = 0.75;
 constexpr int kOriginReach = 4;
 
 /// What has grown is made again, with its guide moved outward or inward, while its solid share is
-/// off by more than this, at most so many times.
+/// off by more than this, at most so many times; before that on the coarsest level alone, up to so
+/// many times, which takes so much of the work.
 constexpr double kSolidOff = 0.07;
-constexpr int kCorrections = 2;
+constexpr int kCorrections = 1, kCalibrations = 3;
+constexpr double kCalibrated = 0.15;
 
 /// The start of voting on a grid `shrink` times as coarse.
 Array3D<Vec3i> startOf(const StretchedObject& stretched, const Vec3i& example, int shrink) {
@@ -154,17 +157,21 @@ class Growing {
  private:
   /// Grown from the level, with about as much solid as the example has.
   SynthesisResult asSolid(const Progress& progress) {
+    const int shrink = 1 << (levels_ - 1);
     voting_.levels = levels_;
-    voting_.start = startOf(stretched_, example_.size(), 1 << (levels_ - 1));
+    voting_.start = startOf(stretched_, example_.size(), shrink);
     voting_.guide = stretched_.values;
     SynthesisResult best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity(), aim = 1;
     for (int made = 0; made <= kCorrections && least > kSolidOff; ++made) {
-      constexpr double kTries = kCorrections + 1;
-      SynthesisResult next =
-          synthesizeByVoting(example_, voting_, progress.part(made / kTries, (made + 1) / kTries));
+      const Progress part = progress.part(static_cast<double>(made) / (kCorrections + 1),
+                                          (made + 1.0) / (kCorrections + 1));
+      calibrate(shrink, aim, part.part(0, kCalibrated));
+      SynthesisResult next = synthesizeByVoting(example_, voting_, part.part(kCalibrated, 1));
       const Solid solid = solidOf(next.field);
-      moveGuide(solid);
+      // Finer levels add about as much each time.
+      aim /= std::max(0.1, solid.ratio);
+      if (shrink == 1) moveGuide(solid.depth);
       if (std::abs(solid.ratio - 1) >= least) continue;
       least = std::abs(solid.ratio - 1);
       best = std::move(next);
@@ -172,11 +179,34 @@ class Growing {
     return best;
   }
 
+  /// Moves the guide until the coarsest level alone, which costs little, has `aim` times as much
+  /// solid as the example.
+  void calibrate(int shrink, double aim, const Progress& progress) {
+    if (shrink == 1) return;
+    const DistanceField coarse = blockAverage(example_, shrink);
+    for (int round = 0; round < kCalibrations; ++round) {
+      VotingOptions voting = voting_;
+      voting.levels = 1;
+      voting.size = voting.start.size();
+      DistanceField guide;
+      guide.values = *voting_.guide;
+      voting.guide = blockAverage(guide, shrink).values;
+      for (float& v : voting.guide->values()) v /= static_cast<float>(shrink);
+      const SynthesisResult made = synthesizeByVoting(
+          coarse, voting,
+          progress.part(static_cast<double>(round) / kCalibrations, (round + 1.0) / kCalibrations));
+      const Solid solid = solidOf(made.field, aim);
+      if (std::abs(solid.ratio - 1) < kSolidOff / 2) return;
+      moveGuide(solid.depth * shrink);
+    }
+  }
+
   struct Solid {
     double ratio = 1;  ///< of its share, over the example's
     double depth = 0;  ///< how far its surface is outside of where it should be, voxels
   };
-  Solid solidOf(const DistanceField& made) const {
+  /// Compared with `aim` times what the example has.
+  Solid solidOf(const DistanceField& made, double aim = 1) const {
     std::int64_t wanted = 0, solid = 0, surface = 0;
     for (const float v : example_.values.values()) wanted += v < 0;
     const auto voxel = static_cast<float>(made.voxelSize);
@@ -186,13 +216,14 @@ class Growing {
     }
     const double larger =
         static_cast<double>(made.values.count()) / static_cast<double>(example_.values.count());
-    const double aim = std::max(1.0, static_cast<double>(wanted) * larger);
+    const double all = std::max(1.0, aim * static_cast<double>(wanted) * larger);
     // The surface takes up two voxels.
     const double area = std::max(1.0, static_cast<double>(surface) / 2);
-    return {static_cast<double>(solid) / aim, (static_cast<double>(solid) - aim) / area};
+    return {static_cast<double>(solid) / all, (static_cast<double>(solid) - all) / area};
   }
-  void moveGuide(const Solid& solid) {
-    for (float& v : voting_.guide->values()) v += static_cast<float>(solid.depth);
+  /// By so many voxels inward.
+  void moveGuide(double depth) {
+    for (float& v : voting_.guide->values()) v += static_cast<float>(depth);
   }
 
   const DistanceField& example_;

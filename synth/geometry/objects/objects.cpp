@@ -136,7 +136,8 @@ class Objects {
     growing.truncation = options_.truncation;
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
-      if (result_.growth[a] == Growth::Grown) {
+      if (result_.growth[a] != Growth::Fitted) {
+        // Where it stays as long, nothing is stretched.
         const Axis& along = axes_[a];
         growing.places[a] =
             along.fine(stretchedPath(along.docking, coarse(axis), draw(axis)), options_.size[axis]);
