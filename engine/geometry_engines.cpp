@@ -357,7 +357,10 @@ class GeometryEngine final : public FieldEngine {
     };
     say(Growth::Fitted, "extended in its own structure");
     say(Growth::Grown, "grown as one");
-    if (same) text += "; varied, with " + std::to_string(made.parts) + " of its parts exchanged";
+    if (made.strewn > 0)
+      text = "loose parts; " + std::to_string(made.strewn) + " of them strewn anew";
+    else if (same)
+      text += "; varied, with " + std::to_string(made.parts) + " of its parts exchanged";
     result.notes.emplace_back("object", text);
     result.statistics.emplace_back("parts_exchanged", static_cast<std::int64_t>(made.parts));
     if (same && made.distance < kVaried)

@@ -273,5 +273,33 @@ TEST(KeptPlaces, VotingGoesOnFromEitherSideAlike) {
   EXPECT_LT(made([](const Vec3i& p) { return p.x >= 14 && p.x < 26; }), 0.05);
 }
 
+TEST(KeptPlaces, GroundStaysAtTheTopOrTheBottomThatIsKept) {
+  const DistanceField example = ground({28, 28, 28}, 6);
+  const Vec3i n = example.size(), size{28, 28, 44};
+  // Half of it each: what is below the surface, and what is above it with the surface.
+  const Where parts[] = {[](const Vec3i& p) { return p.z < 8; },
+                         [](const Vec3i& p) { return p.z >= 8; }};
+  for (const Where& part : parts) {
+    const KeptPlaces places = placeKept(example, maskOf(n, part), size, {});
+    VotingOptions options;
+    options.size = size;
+    options.rounds = 3;
+    options.kept = places.kept;
+    options.keptOffsets = places.offsets;
+    const SynthesisResult result = synthesizeByVoting(example, options);
+    const bool below = part({0, 0, 0});
+    int kept = 0;
+    forEachCell(size, [&](const Vec3i& p) {
+      if (!places.kept[p]) return;
+      ++kept;
+      const Vec3i from = places.offsets.empty() ? p : p - places.offsets[places.kept[p] - 1U];
+      ASSERT_EQ(result.field.values[p], example.values[from]);
+      // The lower part is the result's lowest, the upper one its highest.
+      ASSERT_EQ(p.z - from.z, below ? 0 : size.z - n.z);
+    });
+    EXPECT_EQ(kept, n.x * n.y * (below ? 8 : n.z - 8));
+  }
+}
+
 }  // namespace
 }  // namespace exemplar

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -14,6 +13,8 @@
 
 #include "core/cells.h"
 #include "core/parallel.h"
+#include "sdf/resample.h"
+#include "synth/geometry/objects/object_kind.h"
 #include "synth/geometry/voting/voting.h"
 
 namespace exemplar {
@@ -30,22 +31,15 @@ constexpr int kCoarseSide = 40;
 constexpr float kNear = 3;
 constexpr double kAgree = 0.75;
 
-/// What is at most this thick, of its longest side, is limbs and walls: half its thickness.
-constexpr double kThin = 1.0 / 8;
-
-/// Directions that a surface faces are sorted by a cube whose sides have so many fields along
-/// an edge; an object is made of planes where so much of its surface faces so many of them.
-constexpr int kFields = 9;
-constexpr std::size_t kFacings = 8;
-constexpr double kPlanes = 0.45;
-
 /// A sample is shown from at most so far from where the stretched object is, samples.
 constexpr int kOriginReach = 4;
 
 /// What has grown is made again, with its guide moved outward or inward, while its solid share is
-/// off by more than this, at most so many times.
+/// off by more than this, at most so many times; before that on the coarsest level alone, up to so
+/// many times, which takes so much of the work.
 constexpr double kSolidOff = 0.07;
-constexpr int kCorrections = 2;
+constexpr int kCorrections = 1, kCalibrations = 3;
+constexpr double kCalibrated = 0.15;
 
 /// The start of voting on a grid `shrink` times as coarse.
 Array3D<Vec3i> startOf(const StretchedObject& stretched, const Vec3i& example, int shrink) {
@@ -65,54 +59,6 @@ Array3D<Vec3i> startOf(const StretchedObject& stretched, const Vec3i& example, i
     }
   });
   return start;
-}
-
-/// How a growing object is made.
-enum class Kind {
-  Planes,  ///< stretched as space is: a building
-  Limbs,   ///< along its medial axis: a tree, a vase
-  Lump     ///< its surface is made anew of its parts: a boulder
-};
-
-/// Which field of a cube a direction passes through.
-std::size_t facingOf(const Vec3f& direction) {
-  int longest = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (std::abs(direction[axis]) > std::abs(direction[longest])) longest = axis;
-  std::size_t field = direction[longest] < 0 ? 1 : 0;
-  const float scale = 1 / std::max(1e-9F, std::abs(direction[longest]));
-  for (int axis = 0; axis < 3; ++axis) {
-    const float at = axis == longest ? 0 : (direction[axis] * scale + 1) / 2 * kFields;
-    field = field * kFields +
-            static_cast<std::size_t>(std::clamp<int>(static_cast<int>(at), 0, kFields - 1));
-  }
-  return field * 3 + static_cast<std::size_t>(longest);
-}
-
-Kind kindOf(const DistanceField& example) {
-  const Array3D<float>& values = example.values;
-  const auto voxel = static_cast<float>(example.voxelSize);
-  const Vec3i n = example.size();
-  std::vector<std::int64_t> facings(std::size_t{2} * 3 * kFields * kFields * kFields);
-  std::int64_t surface = 0;
-  float deepest = 0;
-  forEachCell(n, [&](const Vec3i& p) {
-    deepest = std::max(deepest, -values[p]);
-    if (std::abs(values[p]) > voxel / 2) return;
-    Vec3f slope;
-    for (int axis = 0; axis < 3; ++axis) {
-      Vec3i step;
-      step[axis] = 1;
-      slope[axis] = values[values.clamped(p + step)] - values[values.clamped(p - step)];
-    }
-    ++surface;
-    ++facings[facingOf(slope)];
-  });
-  std::partial_sort(facings.begin(), facings.begin() + kFacings, facings.end(), std::greater<>());
-  const auto planes = std::accumulate(facings.begin(), facings.begin() + kFacings, std::int64_t{0});
-  if (static_cast<double>(planes) > kPlanes * static_cast<double>(surface)) return Kind::Planes;
-  return deepest > kThin * voxel * static_cast<float>(std::max({n.x, n.y, n.z})) ? Kind::Lump
-                                                                                 : Kind::Limbs;
 }
 
 /// The sample of the example nearest to a place that is on the same side of the surface, or just
@@ -185,14 +131,14 @@ class Growing {
 
   SynthesisResult run(const Progress& progress) {
     progress.report("stretching the object", 0);
-    Kind kind = kindOf(example_);
+    ObjectKind kind = objectKind(example_);
     // Parts that are repeated along an axis have no one place on it.
-    if (kind == Kind::Limbs && !std::ranges::all_of(options_.places, isInOrder))
-      kind = Kind::Planes;
-    const Progress first = progress.part(0, kind == Kind::Lump ? 0.1 : 1);
-    stretched_ = kind == Kind::Limbs ? stretchSkeleton(example_, options_.places, first)
-                                     : stretchSpace(example_, options_.places, first);
-    if (kind != Kind::Lump) return shown(example_, stretched_);
+    if (kind == ObjectKind::Limbs && !std::ranges::all_of(options_.places, isInOrder))
+      kind = ObjectKind::Planes;
+    const Progress first = progress.part(0, kind == ObjectKind::Lump ? 0.1 : 1);
+    stretched_ = kind == ObjectKind::Limbs ? stretchSkeleton(example_, options_.places, first)
+                                           : stretchSpace(example_, options_.places, first);
+    if (kind != ObjectKind::Lump) return shown(example_, stretched_);
     voting_.size = stretched_.values.size();
     SynthesisResult best;
     double most = -1;
@@ -211,17 +157,21 @@ class Growing {
  private:
   /// Grown from the level, with about as much solid as the example has.
   SynthesisResult asSolid(const Progress& progress) {
+    const int shrink = 1 << (levels_ - 1);
     voting_.levels = levels_;
-    voting_.start = startOf(stretched_, example_.size(), 1 << (levels_ - 1));
+    voting_.start = startOf(stretched_, example_.size(), shrink);
     voting_.guide = stretched_.values;
     SynthesisResult best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity(), aim = 1;
     for (int made = 0; made <= kCorrections && least > kSolidOff; ++made) {
-      constexpr double kTries = kCorrections + 1;
-      SynthesisResult next =
-          synthesizeByVoting(example_, voting_, progress.part(made / kTries, (made + 1) / kTries));
+      const Progress part = progress.part(static_cast<double>(made) / (kCorrections + 1),
+                                          (made + 1.0) / (kCorrections + 1));
+      calibrate(shrink, aim, part.part(0, kCalibrated));
+      SynthesisResult next = synthesizeByVoting(example_, voting_, part.part(kCalibrated, 1));
       const Solid solid = solidOf(next.field);
-      moveGuide(solid);
+      // Finer levels add about as much each time.
+      aim /= std::max(0.1, solid.ratio);
+      if (shrink == 1) moveGuide(solid.depth);
       if (std::abs(solid.ratio - 1) >= least) continue;
       least = std::abs(solid.ratio - 1);
       best = std::move(next);
@@ -229,11 +179,34 @@ class Growing {
     return best;
   }
 
+  /// Moves the guide until the coarsest level alone, which costs little, has `aim` times as much
+  /// solid as the example.
+  void calibrate(int shrink, double aim, const Progress& progress) {
+    if (shrink == 1) return;
+    const DistanceField coarse = blockAverage(example_, shrink);
+    for (int round = 0; round < kCalibrations; ++round) {
+      VotingOptions voting = voting_;
+      voting.levels = 1;
+      voting.size = voting.start.size();
+      DistanceField guide;
+      guide.values = *voting_.guide;
+      voting.guide = blockAverage(guide, shrink).values;
+      for (float& v : voting.guide->values()) v /= static_cast<float>(shrink);
+      const SynthesisResult made = synthesizeByVoting(
+          coarse, voting,
+          progress.part(static_cast<double>(round) / kCalibrations, (round + 1.0) / kCalibrations));
+      const Solid solid = solidOf(made.field, aim);
+      if (std::abs(solid.ratio - 1) < kSolidOff / 2) return;
+      moveGuide(solid.depth * shrink);
+    }
+  }
+
   struct Solid {
     double ratio = 1;  ///< of its share, over the example's
     double depth = 0;  ///< how far its surface is outside of where it should be, voxels
   };
-  Solid solidOf(const DistanceField& made) const {
+  /// Compared with `aim` times what the example has.
+  Solid solidOf(const DistanceField& made, double aim = 1) const {
     std::int64_t wanted = 0, solid = 0, surface = 0;
     for (const float v : example_.values.values()) wanted += v < 0;
     const auto voxel = static_cast<float>(made.voxelSize);
@@ -243,13 +216,14 @@ class Growing {
     }
     const double larger =
         static_cast<double>(made.values.count()) / static_cast<double>(example_.values.count());
-    const double aim = std::max(1.0, static_cast<double>(wanted) * larger);
+    const double all = std::max(1.0, aim * static_cast<double>(wanted) * larger);
     // The surface takes up two voxels.
     const double area = std::max(1.0, static_cast<double>(surface) / 2);
-    return {static_cast<double>(solid) / aim, (static_cast<double>(solid) - aim) / area};
+    return {static_cast<double>(solid) / all, (static_cast<double>(solid) - all) / area};
   }
-  void moveGuide(const Solid& solid) {
-    for (float& v : voting_.guide->values()) v += static_cast<float>(solid.depth);
+  /// By so many voxels inward.
+  void moveGuide(double depth) {
+    for (float& v : voting_.guide->values()) v += static_cast<float>(depth);
   }
 
   const DistanceField& example_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "core/random.h"
 #include "sdf/resample.h"
 #include "synth/geometry/objects/growth.h"
+#include "synth/geometry/objects/loose_parts.h"
 #include "synth/geometry/objects/part_exchange.h"
 #include "synth/geometry/objects/slice_path.h"
 #include "synth/geometry/pyramid/pyramid.h"
@@ -134,7 +136,8 @@ class Objects {
     growing.truncation = options_.truncation;
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
-      if (result_.growth[a] == Growth::Grown) {
+      if (result_.growth[a] != Growth::Fitted) {
+        // Where it stays as long, nothing is stretched.
         const Axis& along = axes_[a];
         growing.places[a] =
             along.fine(stretchedPath(along.docking, coarse(axis), draw(axis)), options_.size[axis]);
@@ -420,6 +423,16 @@ class Objects {
   ObjectResult result_;
 };
 
+/// 1 - IoU of two fields of one size.
+double distanceInPlace(const Array3D<float>& a, const Array3D<float>& b) {
+  std::int64_t both = 0, either = 0;
+  for (std::size_t s = 0; s < a.count(); ++s) {
+    both += a.values()[s] < 0 && b.values()[s] < 0;
+    either += a.values()[s] < 0 || b.values()[s] < 0;
+  }
+  return 1 - static_cast<double>(both) / static_cast<double>(std::max<std::int64_t>(1, either));
+}
+
 }  // namespace
 
 bool isFreeStanding(const DistanceField& example) {
@@ -440,6 +453,17 @@ ObjectResult synthesizeObject(const DistanceField& example, const ObjectOptions&
   pyramid.size = options.size;
   pyramid.truncation = options.truncation;
   checkPyramid(examples, false, pyramid, std::nullopt);
+  if (!options.kept) {
+    if (std::optional<StrewnParts> strewn =
+            strewParts(example, {options.size, options.seed}, progress)) {
+      ObjectResult result;
+      result.strewn = strewn->parts;
+      if (options.size == example.size())
+        result.distance = distanceInPlace(example.values, strewn->made.field.values);
+      result.made = std::move(strewn->made);
+      return result;
+    }
+  }
   return Objects(example, options).run(progress);
 }
 

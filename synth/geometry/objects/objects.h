@@ -39,6 +39,7 @@ struct ObjectResult {
   SynthesisResult made;
   std::array<Growth, 3> growth{};  ///< along each axis
   int parts = 0;                   ///< that were exchanged
+  int strewn = 0;                  ///< loose parts that it is made of (`strewParts`), or none
   double partDistance = 0;
   /// The distance (1 - IoU) to the example in place, of a result of its own size, before joints are
   /// cut; else 0.
@@ -55,6 +56,9 @@ struct ObjectResult {
 /// onto itself (`fittedPath`), and joints are cut where both sides agree best, as everywhere
 /// (`assemble`). Where it does not, or would stand on several feet instead of one, it grows into
 /// one larger object (`growObject`).
+///
+/// What is made of loose parts is strewn anew, at any size (`strewParts`), unless something is
+/// kept.
 ///
 /// Where something is kept and the example does not dock onto itself beside it along an axis along
 /// which the result is of another size, nothing is made, and `made.field` is empty.
