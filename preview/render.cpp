@@ -134,7 +134,7 @@ Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& option
       taken_(takenOf(options)),
       scale_(sceneScale(boundingBox(mesh), options.view.elevation < 0)),
       tracer_(mesh, scale_, progress),
-      normals_(cornerNormals(mesh, options.creaseAngle)),
+      normals_(cornerNormals(mesh, options.creaseAngle, progress)),
       paints_(mesh, options.warnings),
       studio_(cast<float>(keyDirection(options)), static_cast<float>(options.keyRadius)),
       paths_(std::max(1, options.samples / kRaysOfPath)) {
