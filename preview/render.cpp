@@ -477,7 +477,7 @@ Image8 render(const TriangleMesh& mesh, const RenderOptions& options, const Prog
       "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
       "ask for a smaller one");
   progress.report("preparing the picture", 0);
-  const Photographer photographer(mesh, options, progress);
+  const Photographer photographer(mesh, options, progress.part(0, 0.02));
 
   Film film{width, height, std::vector<FilmPixel>(static_cast<std::size_t>(width) * height)};
   const int columns = (width + kTile - 1) / kTile;
