@@ -328,6 +328,15 @@ class Waiting(unittest.TestCase):
         for values in made:
             np.testing.assert_array_equal(values, expected)
 
+    def test_a_forked_child_has_threads_of_its_own(self):
+        mesh = exemplar.Mesh(*cube())
+        self.assertTrue(mesh.health()["closed"])
+        child = os.fork()
+        if child == 0:
+            signal.alarm(60)  # ends it where it would wait for one that is not there
+            os._exit(0 if mesh.health()["closed"] else 1)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+
     def test_calls_do_not_leak(self):
         def resident():
             with open("/proc/self/statm", encoding="ascii") as file:
