@@ -186,7 +186,9 @@ Command addCompareCommand(CLI::App& app) {
   rows.install(*command, options->settings);
   addReadingOptions(*command, Form::Field, options->settings);
   addPictureOptions(*command, options->picture);
-  command->footer(examplesFooter({"compare chainmail -o chainmail_compared --seeds 2"}));
+  command->footer(examplesFooter({"compare chainmail -o chainmail_compared --seeds 2",
+                                  "compare wall.obj -o walls -s 3,1,1 --engines geometry,blocks",
+                                  "compare terrain.tif -o terrains --seeds 5"}));
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { compareEngines(*options, terminal); }};
 }

@@ -23,6 +23,7 @@ Command addCompletionCommand(CLI::App& app) {
       ->option_text("bash|zsh|fish");
   command->footer(
       examplesFooter({"completion bash > ~/.local/share/bash-completion/completions/exemplar",
+                      "completion zsh > ~/.zfunc/_exemplar",
                       "completion fish > ~/.config/fish/completions/exemplar.fish"}));
   return {command, addCommonOptions(*command), [shell, &app](Terminal& terminal) {
             terminal.print(completionScript(*shell, completedCommands(app, bundledScenes())));

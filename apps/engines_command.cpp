@@ -25,7 +25,8 @@ Command addEnginesCommand(CLI::App& app) {
       command->add_flag("--json", options->json, "every setting as JSON, for programs");
   command->add_flag("--markdown", options->markdown, "every setting as a page (docs/settings.md)")
       ->excludes(json);
-  command->footer(examplesFooter({"engines", "engines --json"}));
+  command->footer(
+      examplesFooter({"engines", "engines --json", "engines --markdown > settings.md"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             if (options->json) {
               terminal.print(jsonText(settingsJson(), 2) + "\n");

@@ -41,7 +41,16 @@ std::string wrapped(std::string_view text, int indent) {
       lines += line + "\n";
       line.clear();
     }
-    line += line.empty() ? margin + word : " " + word;
+    line += line.empty() ? margin : " ";
+    // Choices of an option are one word: a long one goes on after a bar.
+    while (line.size() + word.size() > kColumns) {
+      const std::size_t bar = word.rfind('|', kColumns - line.size() - 1);
+      if (bar == word.npos) break;
+      lines += line + word.substr(0, bar + 1) + "\n";
+      word.erase(0, bar + 1);
+      line = margin;
+    }
+    line += word;
   }
   return line.empty() ? lines : lines + line + "\n";
 }
@@ -61,8 +70,10 @@ std::string HelpFormatter::make_group(std::string group, bool isPositional,
 
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
                                      CLI::AppFormatMode mode) const {
-  std::string text =
-      app->get_description() + "\n" + make_usage(app, std::move(name)) + make_positionals(app);
+  const std::string description = app->get_description();  // several lines are as they should be
+  const bool oneLine = description.find('\n') == description.npos;
+  std::string text = (oneLine ? wrapped(description, 0) : description + "\n") +
+                     make_usage(app, std::move(name)) + make_positionals(app);
   const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
   if (!commands.empty()) text += "\nCommands:\n";
   for (const CLI::App* command : commands) text += make_subcommand(command);

@@ -228,7 +228,7 @@ Command addInfoCommand(CLI::App& app) {
   command->add_flag("--list", options->list, "list every label with its number of cells");
   command->add_option("--json", options->json, "write it to this .json; - prints it");
   addReadingOptions(*command, Form::Labels, options->settings);
-  command->footer(examplesFooter({"info wall.obj", "info castle --list"}));
+  command->footer(examplesFooter({"info wall.obj", "info castle --list", "info map.tmx"}));
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { info(*options, terminal); }};
 }

@@ -189,8 +189,9 @@ Command addMeasureCommand(CLI::App& app) {
            readingSettings(Form::Labels).settings());
   rows.install(*command, options->settings);
   addPictureOptions(*command, options->picture);
-  command->footer(examplesFooter(
-      {"measure wall.obj wall_more.obj -s 3,1,1", "measure castle town.vox --json town.json"}));
+  command->footer(
+      examplesFooter({"measure wall.obj wall_more.obj -s 3,1,1",
+                      "measure castle town.vox --json town.json", "measure terrain.tif more.tif"}));
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { measureFiles(*options, terminal); }};
 }

@@ -138,7 +138,9 @@ Command addMeshCommand(CLI::App& app) {
   rows.install(*command, options->settings);
   addReadingOptions(*command, Form::Field, options->settings);
 
-  command->footer(examplesFooter({"mesh statue.vdb -o statue.obj --triangles 20000"}));
+  command->footer(examplesFooter(
+      {"mesh statue.vdb -o statue.obj --triangles 20000", "mesh town.vox -o town.glb",
+       "mesh more.vdb --origins from.vdb --example wall.obj -o more.glb"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             if (options->origins.empty() != options->example.empty())
               throw InputError("--origins and --example go together");

@@ -109,7 +109,9 @@ Command addRenderCommand(CLI::App& app) {
   addPictureOptions(*command, options->picture);
   addReadingOptions(*command, Form::Field, options->settings);
 
-  command->footer(examplesFooter({"render statue.obj more.glb -o side_by_side.png"}));
+  command->footer(examplesFooter({"render statue.obj more.glb -o side_by_side.png",
+                                  "render castle -o plan.png --view top",
+                                  "render land.tif more.tif -o relief.png --light 315,45"}));
   return {command, addCommonOptions(*command), [options, command](Terminal& terminal) {
             requireOutput(options->output, ".png");
             const bool relief = areHeightMaps(options->examples) && command->count("--view") == 0;

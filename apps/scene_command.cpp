@@ -61,7 +61,9 @@ Command addSceneCommand(CLI::App& app) {
   rows.add("Scene", "", sceneSettings().settings());
   rows.install(*command, options->settings);
 
-  command->footer(examplesFooter({"scene chainmail -o chainmail.glb"}));
+  command->footer(
+      examplesFooter({"scene chainmail -o chainmail.glb", "scene minerals -o minerals.vox",
+                      "scene balls -o balls.obj --scene-seed 2 --extent 2,2,1"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             const Source source(findScene(options->name));
             const SourceKind kind = sourceKind(source);

@@ -25,7 +25,9 @@ Command addSdfCommand(CLI::App& app) {
   command->add_option("-o,--output", options->output, "the .vdb file to write")->required();
   addReadingOptions(*command, Form::Field, options->settings);
 
-  command->footer(examplesFooter({"sdf statue.stl -o statue.vdb -r 128"}));
+  command->footer(examplesFooter({"sdf statue.stl -o statue.vdb -r 128",
+                                  "sdf wall.obj -o wall.vdb --padding 0,4,4",
+                                  "sdf rock.vdb -o rock_y_up.vdb --up y"}));
   return {command, addCommonOptions(*command), [options](Terminal& terminal) {
             requireOutput(options->output, ".vdb");
             const Example example =

@@ -74,7 +74,9 @@ Command addVoxelizeCommand(CLI::App& app) {
   rows.add("Reading the example", "", fillSettings().settings());
   rows.add("Reading the example", "", readingSettings(Form::Labels).settings());
   rows.install(*command, options->settings);
-  command->footer(examplesFooter({"voxelize house.glb -o house.vox --cell 0.5"}));
+  command->footer(examplesFooter({"voxelize house.glb -o house.vox --cell 0.5",
+                                  "voxelize town.obj -o town.txt --cell 2 --pieces",
+                                  "voxelize flowers.png -o flowers.txt --piece 3 --overlap"}));
   return {command, addCommonOptions(*command),
           [options](Terminal& terminal) { voxelize(*options, terminal); }};
 }

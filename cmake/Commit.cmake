@@ -1,5 +1,6 @@
 # Writes the commit that SOURCE is at into the header OUT, where it has changed; an empty text where
 # SOURCE is no checkout. Run by each build: cmake -DSOURCE=... -DOUT=... -P Commit.cmake
+cmake_policy(VERSION 3.25)
 set(commit "")
 find_program(git git)
 if(git AND EXISTS ${SOURCE}/.git)

@@ -3,6 +3,8 @@
 # `python3-exemplar`, as .deb. scripts/package.sh builds and checks them.
 
 find_program(EXEMPLAR_HELP2MAN help2man REQUIRED)
+# It is run here where the scenes that it names are not installed yet.
+set(with_scenes ${CMAKE_COMMAND} -E env EXEMPLAR_SCENES=${PROJECT_SOURCE_DIR}/scenes)
 set(folder ${PROJECT_BINARY_DIR}/package)
 file(MAKE_DIRECTORY ${folder})
 
@@ -12,14 +14,14 @@ foreach(subcommand IN ITEMS "" ${subcommands})
   string(REGEX REPLACE "^(.+)$" "-\\1" dashed "${subcommand}")
   set(page ${folder}/exemplar${dashed}.1)
   add_custom_command(OUTPUT ${page}.gz
-    COMMAND sh ${PROJECT_SOURCE_DIR}/cmake/man_page.sh $<TARGET_FILE:exemplar> ${page} ${PROJECT_VERSION} ${subcommand}
+    COMMAND ${with_scenes} sh ${PROJECT_SOURCE_DIR}/cmake/man_page.sh $<TARGET_FILE:exemplar> ${page} ${PROJECT_VERSION} ${subcommand}
     DEPENDS exemplar ${PROJECT_SOURCE_DIR}/cmake/man_page.sh VERBATIM)
   list(APPEND pages ${page}.gz)
 endforeach()
 
 foreach(shell bash zsh fish)
   add_custom_command(OUTPUT ${folder}/completion.${shell}
-    COMMAND exemplar completion ${shell} > ${folder}/completion.${shell}
+    COMMAND ${with_scenes} $<TARGET_FILE:exemplar> completion ${shell} > ${folder}/completion.${shell}
     DEPENDS exemplar VERBATIM)
   list(APPEND scripts ${folder}/completion.${shell})
 endforeach()

@@ -10,7 +10,8 @@ printf '#!/bin/sh\n[ "$1" = --version ] && { echo "exemplar %s"; exit; }\nexec "
   "$version" "$program" "$subcommand" > "$folder/$title"
 chmod +x "$folder/$title"
 if [ -n "$subcommand" ]; then
-  name=$("$program" "$subcommand" --help | head -1)
+  # The description, which may be two lines.
+  name=$("$program" "$subcommand" --help | awk '/^$/ { exit } { printf "%s%s", space, $0; space = " " }')
 else
   name="more of one example mesh, map or label grid"
 fi

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "core/huge_pages.h"
 #include "core/vec.h"
@@ -19,6 +20,15 @@ class Array3D {
   Array3D() = default;
   explicit Array3D(const Vec3i& size, const T& value = T{})
       : size_(size), data_(static_cast<std::size_t>(volume(size)), value) {}
+  /// Of values in the samples' order, as many as there are samples: `filled` (core/stoppable.h)
+  /// makes gigabytes of them.
+  static Array3D of(const Vec3i& size, HugeVector<T> values) {
+    assert(values.size() == static_cast<std::size_t>(volume(size)));
+    Array3D array;
+    array.size_ = size;
+    array.data_ = std::move(values);
+    return array;
+  }
 
   const Vec3i& size() const { return size_; }
   std::size_t count() const { return data_.size(); }

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/parallel.h"
+#include "core/stoppable.h"
 
 namespace exemplar {
 namespace {
@@ -217,11 +218,13 @@ class FanFinder {
 
 }  // namespace
 
-std::vector<std::uint32_t> firstOfEqual(const std::vector<Vec3d>& positions) {
+std::vector<std::uint32_t> firstOfEqual(const std::vector<Vec3d>& positions,
+                                        const Progress& progress) {
   const std::size_t n = positions.size();
   const std::size_t slots = std::bit_ceil(2 * n + 1);
   std::vector<std::uint32_t> table(slots, kNone), first(n);
   for (std::size_t v = 0; v < n; ++v) {
+    if (looksUp(v)) progress.check();
     std::size_t slot = hashPosition(positions[v]) & (slots - 1);
     while (table[slot] != kNone && !(positions[table[slot]] == positions[v]))
       slot = (slot + 1) & (slots - 1);
@@ -249,6 +252,7 @@ ShadingNormals smoothNormals(const TriangleMesh& mesh, float least, const Progre
   Corners corners = cornersOf(mesh, [](std::uint32_t v) { return v; });
   std::vector<std::uint32_t> fan(3 * m);  // of each entry of `corners`
   std::vector<std::uint32_t> fans(n + 1);
+  progress.check();
   const auto findFans = [&] {
     std::atomic<bool> open = false;
     parallelFor(0, n, kGrain, [&](std::size_t begin, std::size_t end) {
@@ -262,7 +266,7 @@ ShadingNormals smoothNormals(const TriangleMesh& mesh, float least, const Progre
     return open.load();
   };
   if (findFans()) {
-    first = firstOfEqual(mesh.positions);
+    first = firstOfEqual(mesh.positions, progress);
     bool any = false;
     for (std::size_t v = 0; v < n && !any; ++v) any = first[v] != v;
     if (any) {

@@ -41,7 +41,8 @@ ShadingNormals shadingNormals(const TriangleMesh& mesh, MeshNormals normals,
 ShadingNormals shadingNormals(const TriangleMesh& mesh, double creaseAngle,
                               const Progress& progress = {});
 
-/// For each position the index of the first one that is equal to it.
-std::vector<std::uint32_t> firstOfEqual(const std::vector<Vec3d>& positions);
+/// For each position the index of the first one that is equal to it. Throws `Cancelled`.
+std::vector<std::uint32_t> firstOfEqual(const std::vector<Vec3d>& positions,
+                                        const Progress& progress = {});
 
 }  // namespace exemplar

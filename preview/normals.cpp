@@ -3,14 +3,13 @@
 
 #include "preview/normals.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/stoppable.h"
 #include "mesh/shading_normals.h"
 
 namespace exemplar {
@@ -72,8 +71,8 @@ class Windings {
 };
 
 /// Which triangles to turn round so that each is wound as its neighbors are; empty for none.
-std::vector<bool> turnedRound(const TriangleMesh& mesh) {
-  const std::vector<std::uint32_t> place = firstOfEqual(mesh.positions);
+std::vector<bool> turnedRound(const TriangleMesh& mesh, const Progress& progress) {
+  const std::vector<std::uint32_t> place = firstOfEqual(mesh.positions, progress);
   std::vector<Side> sides(3 * mesh.triangles.size());
   parallelFor(0, mesh.triangles.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
@@ -84,9 +83,10 @@ std::vector<bool> turnedRound(const TriangleMesh& mesh) {
       }
     }
   });
-  tbb::parallel_sort(sides.begin(), sides.end());
+  sortInParallel(sides, progress);
   Windings windings(mesh.triangles.size());
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+  for (std::size_t begin = 0, end = 0, edge = 0; begin < sides.size(); begin = end, ++edge) {
+    if (looksUp(edge)) progress.check();
     while (end < sides.size() && sides[end].sameEdge(sides[begin])) ++end;
     // Where several sheets meet, any two of them could belong together.
     if (end - begin != 2 || sides[begin].low == sides[begin].high) continue;
@@ -96,6 +96,7 @@ std::vector<bool> turnedRound(const TriangleMesh& mesh) {
   std::vector<bool> turned(mesh.triangles.size());
   bool any = false;
   for (std::uint32_t t = 0; t < turned.size(); ++t) {
+    if (looksUp(t)) progress.check();
     turned[t] = windings.find(t).second;
     any = any || turned[t];
   }
@@ -105,8 +106,9 @@ std::vector<bool> turnedRound(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::vector<std::array<Vec3f, 3>> cornerNormals(const TriangleMesh& mesh, double creaseAngle) {
-  const std::vector<bool> turned = turnedRound(mesh);
+std::vector<std::array<Vec3f, 3>> cornerNormals(const TriangleMesh& mesh, double creaseAngle,
+                                                const Progress& progress) {
+  const std::vector<bool> turned = turnedRound(mesh, progress);
   TriangleMesh wound;
   if (!turned.empty()) {
     wound.positions = mesh.positions;
@@ -114,9 +116,11 @@ std::vector<std::array<Vec3f, 3>> cornerNormals(const TriangleMesh& mesh, double
     for (std::size_t t = 0; t < turned.size(); ++t)
       if (turned[t]) std::swap(wound.triangles[t][1], wound.triangles[t][2]);
   }
-  const ShadingNormals shading = shadingNormals(turned.empty() ? mesh : wound, creaseAngle);
+  const ShadingNormals shading =
+      shadingNormals(turned.empty() ? mesh : wound, creaseAngle, progress);
   std::vector<std::array<Vec3f, 3>> normals(mesh.triangles.size());
   parallelFor(0, normals.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    progress.check();
     for (std::size_t t = begin; t < end; ++t) {
       const bool isTurned = !turned.empty() && turned[t];
       const Vec3f own = cast<float>(normalized(areaNormal(mesh, t)));

@@ -277,7 +277,7 @@ Image8 renderRelief(std::span<const ReliefMap> maps, const ReliefOptions& option
                         slope.y *= exaggeration * perUnit;
                         const double h = heights(x, y);
                         if (std::isnan(h)) {
-                          std::copy_n(kBackground, 3, pixel);
+                          std::ranges::copy(kBackground, pixel);
                           continue;
                         }
                         if (std::isnan(slope.x)) slope.x = 0;
@@ -300,7 +300,7 @@ Image8 renderRelief(std::span<const ReliefMap> maps, const ReliefOptions& option
     }
   }
   std::vector<Image8> joined;
-  for (const std::vector<Image8>& row : rows) joined.push_back(sideBySide(row, kGap));
+  for (const std::vector<Image8>& row : rows) joined.push_back(sideBySide(row, {.gap = kGap}));
   progress.report("drawing relief", 1);
   return joined.size() == 1 ? std::move(joined.front()) : stacked(joined);
 }

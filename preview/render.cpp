@@ -134,7 +134,7 @@ Photographer::Photographer(const TriangleMesh& mesh, const RenderOptions& option
       taken_(takenOf(options)),
       scale_(sceneScale(boundingBox(mesh), options.view.elevation < 0)),
       tracer_(mesh, scale_, progress),
-      normals_(cornerNormals(mesh, options.creaseAngle)),
+      normals_(cornerNormals(mesh, options.creaseAngle, progress)),
       paints_(mesh, options.warnings),
       studio_(cast<float>(keyDirection(options)), static_cast<float>(options.keyRadius)),
       paths_(std::max(1, options.samples / kRaysOfPath)) {
@@ -477,7 +477,7 @@ Image8 render(const TriangleMesh& mesh, const RenderOptions& options, const Prog
       "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
       "ask for a smaller one");
   progress.report("preparing the picture", 0);
-  const Photographer photographer(mesh, options, progress);
+  const Photographer photographer(mesh, options, progress.part(0, 0.02));
 
   Film film{width, height, std::vector<FilmPixel>(static_cast<std::size_t>(width) * height)};
   const int columns = (width + kTile - 1) / kTile;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -78,16 +79,27 @@ Image8 render(const TriangleMesh& mesh, const RenderOptions& options = {},
 Box3d frameOfSize(const Box3d& box, const Vec3d& size);
 
 /// The color behind pictures, sRGB.
-inline constexpr std::uint8_t kBackground[3] = {240, 240, 241};
+inline constexpr std::array<std::uint8_t, 3> kBackground = {240, 240, 241};
 
-/// Pictures in a row from left to right, `gap` >= 0 pixels of background between them; lower ones
-/// are centered. All have 3 channels. Throws `InputError` for none, or where they would not fit.
-Image8 sideBySide(std::span<const Image8> pictures, int gap = 0);
+/// The color between and above the panels of a row, sRGB.
+inline constexpr std::array<std::uint8_t, 3> kPage = {255, 255, 255};
 
-/// Meshes in a row at one scale and on one floor, each as wide as what it shows and a little free
-/// space. The row is as large as fits into pictures of the size that `options` says, one for each
-/// mesh beside the others: that wide, or that high where it would be higher. One mesh alone has a
-/// picture of that size. Throws as `render` and `sideBySide` do.
+/// How pictures are put in a row.
+struct RowStyle {
+  int gap = 0;           ///< pixels between them, >= 0
+  bool onFloor = false;  ///< lower ones are at the bottom; else they are centered
+  std::array<std::uint8_t, 3> behind = kBackground;  ///< where no picture is, sRGB
+};
+
+/// Pictures in a row from left to right. All have 3 channels. Throws `InputError` for none, for a
+/// gap out of range, or where they would not fit.
+Image8 sideBySide(std::span<const Image8> pictures, const RowStyle& style = {});
+
+/// Meshes in a row at one scale and on one floor, each in a panel as wide and as high as what it
+/// shows and a little free space; between and above panels is `kPage`. The row is as large as fits
+/// into pictures of the size that `options` says, one for each mesh beside the others: that wide,
+/// or that high where it would be higher. One mesh alone has a picture of that size. Throws as
+/// `render` and `sideBySide` do.
 Image8 renderSideBySide(std::span<const TriangleMesh> meshes, const RenderOptions& options,
                         const Progress& progress = {});
 

@@ -12,10 +12,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
-#include <thread>
 
 #include "core/error.h"
+#include "python/workers.h"
 
 namespace exemplar::python {
 namespace {
@@ -23,19 +24,26 @@ namespace {
 /// How often the caller's thread looks up.
 constexpr std::chrono::milliseconds kWake{50};
 
-}  // namespace
-
-void runUnlocked(const Waiting& waiting, const std::function<void(const Progress&)>& work) {
+/// What the caller's thread and the one that works for it share.
+struct Call {
   std::atomic<bool> cancel{false};
   ProgressMeter meter;
   std::mutex mutex;
   std::condition_variable ended;
   bool done = false;
   std::exception_ptr failure;
+};
+
+}  // namespace
+
+void runUnlocked(const Waiting& waiting, const std::function<void(const Progress&)>& work) {
+  // The worker lets go of it last, which may be after the caller has seen that it is done.
+  const auto call = std::make_shared<Call>();
   const int threads = waiting.threads;
-  const auto run = [&] {
+  const auto run = [&work, threads, call] {
     const Progress progress(
-        [&](std::string_view stage, double fraction) { meter.report(stage, fraction); }, &cancel);
+        [&](std::string_view stage, double fraction) { call->meter.report(stage, fraction); },
+        &call->cancel);
     try {
       if (threads > 0) {
         tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
@@ -44,42 +52,40 @@ void runUnlocked(const Waiting& waiting, const std::function<void(const Progress
         work(progress);
       }
     } catch (...) {
-      failure = std::current_exception();
+      call->failure = std::current_exception();
     }
-    const std::lock_guard lock(mutex);
-    done = true;
-    ended.notify_one();
+    const std::lock_guard lock(call->mutex);
+    call->done = true;
+    call->ended.notify_one();
   };
 
   std::exception_ptr raised;  // by Python, while waiting
+  onAWorker(run, py::module_::import("os").attr("getpid")().cast<long>());
   {
     const py::gil_scoped_release unlocked;
-    std::thread thread(run);
-    std::unique_lock lock(mutex);
-    while (!ended.wait_for(lock, kWake, [&] { return done; })) {
-      if (cancel.load()) continue;
+    std::unique_lock lock(call->mutex);
+    while (!call->ended.wait_for(lock, kWake, [&] { return call->done; })) {
+      if (call->cancel.load()) continue;
       lock.unlock();
       {
         const py::gil_scoped_acquire locked;
         try {
           if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-          const ProgressState state = meter.state();
+          const ProgressState state = call->meter.state();
           if (!waiting.progress.is_none() && !state.stage.empty()) {
             const py::object answer = waiting.progress(state.stage, state.fraction);
-            if (answer.is(py::bool_(false))) cancel.store(true);
+            if (answer.is(py::bool_(false))) call->cancel.store(true);
           }
         } catch (...) {
           raised = std::current_exception();
-          cancel.store(true);
+          call->cancel.store(true);
         }
       }
       lock.lock();
     }
-    lock.unlock();
-    thread.join();
   }
   if (raised) std::rethrow_exception(raised);
-  if (failure) std::rethrow_exception(failure);
+  if (call->failure) std::rethrow_exception(call->failure);
 }
 
 Vec3d vectorOf(const std::vector<double>& values, const std::string& name) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/stoppable.h"
 #include "mesh/mesh_health.h"
 
 namespace exemplar {
@@ -70,7 +71,9 @@ class SurfaceDistance : public OpenMesh::Decimater::ModBaseT<HalfedgeMesh> {
   void initialize() override {
     HalfedgeMesh& mesh = Base::mesh();
     for (const auto v : mesh.vertices()) mesh.property(quadrics_, v).clear();
+    std::size_t done = 0;
     for (const auto f : mesh.faces()) {
+      if (looksUp(done++)) progress_.check();
       const OpenMesh::Vec3d n = mesh.calc_face_normal(f);
       auto corner = mesh.cfv_iter(f);
       const Quadric q(n[0], n[1], n[2], -(mesh.point(*corner) | n));
@@ -138,7 +141,7 @@ std::size_t facesThere(const HalfedgeMesh& halfedges) {
   return count;
 }
 
-void check(const TriangleMesh& mesh, const DecimateOptions& options) {
+void check(const TriangleMesh& mesh, const DecimateOptions& options, const Progress& progress) {
   if (!(options.error >= 0)) {
     throw InputError("decimation: `error` is " + std::to_string(options.error) +
                      "; it must be >= 0 world units");
@@ -150,7 +153,7 @@ void check(const TriangleMesh& mesh, const DecimateOptions& options) {
   if (mesh.hasColors() || mesh.hasUvs() || mesh.hasMaterials()) {
     throw InputError("decimation would lose materials; decimate first, then transfer them");
   }
-  const MeshHealth health = meshHealth(mesh);
+  const MeshHealth health = meshHealth(mesh, progress);
   if (!health.manifold() || !health.oriented()) {
     throw InputError("decimation needs a manifold, oriented mesh; call `makeManifold` first");
   }
@@ -160,13 +163,14 @@ void check(const TriangleMesh& mesh, const DecimateOptions& options) {
 
 void decimate(TriangleMesh& mesh, const DecimateOptions& options, const Progress& progress) {
   progress.report("simplifying", 0);
-  check(mesh, options);
+  check(mesh, options, progress.part(0, 0.1));
   HalfedgeMesh halfedges;
   halfedges.reserve(mesh.positions.size(), 3 * mesh.triangles.size() / 2, mesh.triangles.size());
   std::vector<std::uint8_t> held(mesh.positions.size(), 0);
   const Vec3d size = options.box ? options.box->size() : Vec3d{};
   const double near = 1e-9 * std::max({size.x, size.y, size.z, 1e-300});
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    if (looksUp(v)) progress.check();
     const Vec3d& p = mesh.positions[v];
     halfedges.new_vertex({p.x, p.y, p.z});
     for (int a = 0; options.box && a < 3; ++a) {
@@ -174,8 +178,9 @@ void decimate(TriangleMesh& mesh, const DecimateOptions& options, const Progress
       if (std::abs(p[a] - options.box->max[a]) <= near) held[v] |= std::uint8_t(1 << a);
     }
   }
-  progress.check();
-  for (const auto& t : mesh.triangles) {
+  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+    if (looksUp(n)) progress.check();
+    const auto& t = mesh.triangles[n];
     const auto handle = [](std::uint32_t v) { return OpenMesh::VertexHandle(static_cast<int>(v)); };
     halfedges.add_face(handle(t[0]), handle(t[1]), handle(t[2]));
   }

@@ -71,8 +71,18 @@ inside sh -c "apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get insta
 inside exemplar synth balls -o "/$trial/packaged.glb" --quiet
 cmp "$root/$trial/portable.glb" "$root/$trial/packaged.glb"
 inside python3 -c 'import exemplar; print("python3-exemplar", exemplar.__version__)'
-test -s "$root/usr/share/man/man1/exemplar-synth.1.gz"
+for page in exemplar exemplar-{synth,sdf,mesh,render,measure,scene,voxelize,info,compare,engines,completion,world}; do
+  test -s "$root/usr/share/man/man1/$page.1.gz"
+done
+# What names the bundled scenes was made where they are.
+for named in bash-completion/completions/exemplar zsh/vendor-completions/_exemplar fish/vendor_completions.d/exemplar.fish; do
+  grep -q chainmail "$root/usr/share/$named"
+done
+zgrep -q chainmail "$root/usr/share/man/man1/exemplar-scene.1.gz"
 test "$(inside exemplar --version | head -1)" = "exemplar $version"
+for package in exemplar libexemplar-dev python3-exemplar; do
+  test "$(inside dpkg-query -W -f='${Version}' $package)" = "$version"
+done
 inside sh -c 'DEBIAN_FRONTEND=noninteractive apt-get purge -y -qq exemplar libexemplar-dev python3-exemplar' >>$build/apt.log 2>&1
 left=$(inside find / -xdev -ipath '*exemplar*' -not -path '/proc/*' -not -path '/opt/*')
 test -z "$left" || { echo "left behind: $left" >&2; exit 1; }

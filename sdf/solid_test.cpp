@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/stoppable.h"
 #include "sdf/row_crossing.h"
 #include "sdf/sample_distances.h"
 #include "sdf/triangle_tree.h"
@@ -70,6 +71,7 @@ SolidTest::SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTre
   std::vector<Corners> closed;
   std::vector<Part> open(soup.componentClosed.size());
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    if (looksUp(t)) progress.check();
     const Corners corners = cornersOf(soup, t);
     const std::uint32_t component = soup.component[t];
     if (soup.componentClosed[component]) {
@@ -83,7 +85,9 @@ SolidTest::SolidTest(const TriangleSoup& soup, std::shared_ptr<const TriangleTre
   std::erase_if(open, [](const Part& part) { return part.triangles.empty(); });
 
   std::vector<Corners> flat, boxes;
-  for (Part& part : open) {
+  for (std::size_t n = 0; n < open.size(); ++n) {
+    if (looksUp(n)) progress.check();
+    Part& part = open[n];
     if (isFlat(part)) {
       flat.insert(flat.end(), part.triangles.begin(), part.triangles.end());
       continue;

@@ -3,8 +3,6 @@
 
 #include "sdf/triangle_soup.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "core/disjoint_sets.h"
+#include "core/stoppable.h"
 
 namespace exemplar {
 namespace {
@@ -31,21 +30,24 @@ struct Side {
   }
 };
 
-std::vector<Side> sortedSides(const std::vector<Triangle>& triangles) {
+std::vector<Side> sortedSides(const std::vector<Triangle>& triangles, const Progress& progress) {
   std::vector<Side> sides(triangles.size() * 3);
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (looksUp(t)) progress.check();
     for (std::uint8_t s = 0; s < 3; ++s) {
       const std::uint32_t a = triangles[t][s], b = triangles[t][(s + 1) % 3];
       sides[3 * std::size_t{t} + s] = {std::min(a, b), std::max(a, b), t, s, a < b};
     }
-  tbb::parallel_sort(sides.begin(), sides.end());  // the keys are total
+  }
+  sortInParallel(sides, progress);  // the keys are total
   return sides;
 }
 
 // Calls visit(begin, end) for the sides of each edge.
 template <class Visit>
-void forEdges(const std::vector<Side>& sides, const Visit& visit) {
-  for (std::size_t b = 0, e = 0; b < sides.size(); b = e) {
+void forEdges(const std::vector<Side>& sides, const Progress& progress, const Visit& visit) {
+  for (std::size_t b = 0, e = 0, edge = 0; b < sides.size(); b = e, ++edge) {
+    if (looksUp(edge)) progress.check();
     while (e < sides.size() && sides[e].sameEdge(sides[b])) ++e;
     visit(b, e);
   }
@@ -53,7 +55,7 @@ void forEdges(const std::vector<Side>& sides, const Visit& visit) {
 
 // The points with equal ones joined; `indices` becomes each vertex's point.
 std::vector<Vec3d> joinPoints(const TriangleMesh& mesh, const Vec3d& origin, double scale,
-                              std::vector<std::uint32_t>& indices) {
+                              std::vector<std::uint32_t>& indices, const Progress& progress) {
   const auto& positions = mesh.positions;
   std::vector<std::uint32_t> order(positions.size());
   for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = v;
@@ -61,10 +63,11 @@ std::vector<Vec3d> joinPoints(const TriangleMesh& mesh, const Vec3d& origin, dou
     const Vec3d &p = positions[a], &q = positions[b];
     return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
   };
-  tbb::parallel_sort(order.begin(), order.end(), before);
+  sortInParallel(order, progress, before);
   indices.resize(positions.size());
   std::vector<Vec3d> points;
   for (std::size_t i = 0; i < order.size(); ++i) {
+    if (looksUp(i)) progress.check();
     const Vec3d& p = positions[order[i]];
     if (i == 0 || !(p == positions[order[i - 1]])) points.push_back((p - origin) / scale);
     indices[order[i]] = static_cast<std::uint32_t>(points.size() - 1);
@@ -74,7 +77,8 @@ std::vector<Vec3d> joinPoints(const TriangleMesh& mesh, const Vec3d& origin, dou
 
 // A flat quadrilateral that is there from both sides, cut along one diagonal on one side and along
 // the other on the other: cuts both along the same one, so that its triangles are equal.
-void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) {
+void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles,
+                    const Progress& progress) {
   struct Quad {
     Triangle left, right;              // from the diagonal's ends to a corner on each side
     std::array<std::uint32_t, 4> key;  // the corners, sorted
@@ -87,8 +91,8 @@ void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& tri
   };
   constexpr double kFlat = 0.9999;  // the cosine of the angle at the diagonal
   std::vector<Quad> quads;
-  const std::vector<Side> sides = sortedSides(triangles);
-  forEdges(sides, [&](std::size_t b, std::size_t e) {
+  const std::vector<Side> sides = sortedSides(triangles, progress);
+  forEdges(sides, progress, [&](std::size_t b, std::size_t e) {
     if (e - b != 2 || sides[b].upwards == sides[b + 1].upwards) return;
     const auto from = [&](const Side& s) {
       const Triangle& t = triangles[s.triangle];
@@ -101,7 +105,7 @@ void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& tri
     std::sort(q.key.begin(), q.key.end());
     quads.push_back(q);
   });
-  tbb::parallel_sort(quads.begin(), quads.end());
+  sortInParallel(quads, progress);
   std::vector<std::uint8_t> used(triangles.size());
   for (std::size_t b = 0, e = 0; b < quads.size(); b = e) {
     while (e < quads.size() && quads[e].key == quads[b].key) ++e;
@@ -129,8 +133,8 @@ struct Distinct {
   std::vector<Triangle> cancelled;
 };
 
-Distinct distinctTriangles(const std::vector<Vec3d>& points,
-                           const std::vector<Triangle>& triangles) {
+Distinct distinctTriangles(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
+                           const Progress& progress) {
   struct Keyed {
     Triangle key;  // the corners, sorted
     std::uint32_t triangle;
@@ -142,6 +146,7 @@ Distinct distinctTriangles(const std::vector<Vec3d>& points,
   std::vector<Keyed> keyed;
   keyed.reserve(triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (looksUp(t)) progress.check();
     const auto [a, b, c] = triangles[t];
     if (a == b || b == c || c == a) continue;
     const Vec3d normal = cross(points[b] - points[a], points[c] - points[a]);
@@ -150,7 +155,7 @@ Distinct distinctTriangles(const std::vector<Vec3d>& points,
     std::sort(k.key.begin(), k.key.end());
     keyed.push_back(k);
   }
-  tbb::parallel_sort(keyed.begin(), keyed.end());
+  sortInParallel(keyed, progress);
   std::vector<std::uint32_t> kept, cancelled;
   for (std::size_t b = 0, e = 0; b < keyed.size(); b = e) {
     int net = 0;
@@ -164,7 +169,7 @@ Distinct distinctTriangles(const std::vector<Vec3d>& points,
     kept.push_back(keyed[k].triangle);
   }
   const auto inOrder = [&](std::vector<std::uint32_t>& which) {
-    std::sort(which.begin(), which.end());
+    sortInParallel(which, progress);
     std::vector<Triangle> result;
     for (const std::uint32_t t : which) result.push_back(triangles[t]);
     return result;
@@ -174,13 +179,14 @@ Distinct distinctTriangles(const std::vector<Vec3d>& points,
 
 // Turns the triangles of each part that is connected across edges of two to face one way, unless
 // the part is one-sided.
-void orient(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) {
+void orient(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles,
+            const Progress& progress) {
   constexpr std::uint32_t kNone = TriangleSoup::kNone;
   std::vector<std::array<std::uint32_t, 3>> across(triangles.size(), {kNone, kNone, kNone});
   std::vector<std::array<bool, 3>> turned(triangles.size());  // the one across faces the other way
   bool any = false;
-  const std::vector<Side> sides = sortedSides(triangles);
-  forEdges(sides, [&](std::size_t b, std::size_t e) {
+  const std::vector<Side> sides = sortedSides(triangles, progress);
+  forEdges(sides, progress, [&](std::size_t b, std::size_t e) {
     if (e - b != 2) return;
     const Side &p = sides[b], &q = sides[b + 1];
     across[p.triangle][p.side] = q.triangle;
@@ -192,12 +198,14 @@ void orient(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles) 
   std::vector<std::int8_t> way(triangles.size(), 0);  // 1 as it is, -1 turned, 0 not reached
   std::vector<std::uint32_t> part;
   for (std::uint32_t seed = 0; seed < triangles.size(); ++seed) {
+    if (looksUp(seed)) progress.check();
     if (way[seed]) continue;
     part.assign(1, seed);
     way[seed] = 1;
     bool twoSided = true;
     double balance = 0;
     for (std::size_t i = 0; i < part.size(); ++i) {
+      if (looksUp(i)) progress.check();
       const std::uint32_t t = part[i];
       const auto& [a, b, c] = triangles[t];
       balance += way[t] * length(cross(points[b] - points[a], points[c] - points[a]));
@@ -243,22 +251,23 @@ double sixVolumes(const std::vector<Vec3d>& points, const std::vector<Triangle>&
 // the other triangles leave. What is left are walls between two solids, and sheets.
 std::vector<Triangle> doubledWalls(const std::vector<Vec3d>& points,
                                    const std::vector<Triangle>& others,
-                                   const std::vector<Triangle>& cancelled) {
+                                   const std::vector<Triangle>& cancelled,
+                                   const Progress& progress) {
   if (cancelled.empty()) return {};
   // Groups that are connected across edges, and the edges of both kinds of triangles.
   std::vector<Triangle> all = cancelled;
   all.insert(all.end(), others.begin(), others.end());
   const std::size_t count = cancelled.size();
-  const std::vector<Side> sides = sortedSides(all);
+  const std::vector<Side> sides = sortedSides(all, progress);
   DisjointSets sets(count);
-  forEdges(sides, [&](std::size_t b, std::size_t e) {
+  forEdges(sides, progress, [&](std::size_t b, std::size_t e) {
     // In the order of triangles: those that cancelled come first.
     for (std::size_t i = b + 1; i < e && sides[i].triangle < count; ++i)
       sets.join(sides[b].triangle, sides[i].triangle);
   });
   std::vector<std::uint8_t> touches(count);  // by a group's root: an edge of other triangles
   std::vector<std::int64_t> opened(count);   // edges that it opens, less those that it closes
-  forEdges(sides, [&](std::size_t b, std::size_t e) {
+  forEdges(sides, progress, [&](std::size_t b, std::size_t e) {
     std::size_t mine = b;
     while (mine < e && sides[mine].triangle < count) ++mine;
     if (mine == b || mine == e) return;
@@ -275,7 +284,7 @@ std::vector<Triangle> doubledWalls(const std::vector<Vec3d>& points,
     if (group.empty()) continue;
     if (touches[root] ? opened[root] >= 0 : isFlat(points, group)) continue;
     if (!touches[root]) {
-      orient(points, group);
+      orient(points, group, progress);
       if (sixVolumes(points, group) < 0)
         for (Triangle& t : group) std::swap(t[1], t[2]);
     }
@@ -320,7 +329,9 @@ void joinRims(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>&
 // Numbers the components and each triangle's.
 void connect(const std::vector<std::uint8_t>& onRim, const Progress& progress, TriangleSoup& soup) {
   DisjointSets sets(soup.points.size());
-  for (const auto& [a, b, c] : soup.triangles) {
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    if (looksUp(t)) progress.check();
+    const auto& [a, b, c] = soup.triangles[t];
     sets.join(a, b);
     sets.join(a, c);
   }
@@ -328,6 +339,7 @@ void connect(const std::vector<std::uint8_t>& onRim, const Progress& progress, T
   std::vector<std::uint32_t> number(soup.points.size(), TriangleSoup::kNone);
   soup.component.resize(soup.triangles.size());
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    if (looksUp(t)) progress.check();
     std::uint32_t& n = number[sets.find(soup.triangles[t][0])];
     if (n == TriangleSoup::kNone) {
       n = static_cast<std::uint32_t>(soup.componentClosed.size());
@@ -353,28 +365,28 @@ TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scal
   report(0);
   TriangleSoup soup;
   std::vector<std::uint32_t> indices;
-  soup.points = joinPoints(mesh, origin, scale, indices);
+  soup.points = joinPoints(mesh, origin, scale, indices, progress);
   soup.triangles = mesh.triangles;
   for (auto& t : soup.triangles)
     for (std::uint32_t& v : t) v = indices[v];
   report(0.2);
   {
-    matchDiagonals(soup.points, soup.triangles);
-    Distinct distinct = distinctTriangles(soup.points, soup.triangles);
+    matchDiagonals(soup.points, soup.triangles, progress);
+    Distinct distinct = distinctTriangles(soup.points, soup.triangles, progress);
     const std::vector<Triangle> walls =
-        doubledWalls(soup.points, distinct.triangles, distinct.cancelled);
+        doubledWalls(soup.points, distinct.triangles, distinct.cancelled, progress);
     soup.triangles = std::move(distinct.triangles);
     soup.triangles.insert(soup.triangles.end(), walls.begin(), walls.end());
   }
   report(0.4);
-  orient(soup.points, soup.triangles);
+  orient(soup.points, soup.triangles, progress);
   report(0.6);
   std::vector<std::uint8_t> onRim(soup.points.size());
-  const std::vector<Side> sides = sortedSides(soup.triangles);
+  const std::vector<Side> sides = sortedSides(soup.triangles, progress);
   soup.closed = soup.even = true;
   constexpr std::uint32_t kNone = TriangleSoup::kNone;
   soup.neighbors.assign(soup.triangles.size(), {kNone, kNone, kNone});
-  forEdges(sides, [&](std::size_t b, std::size_t e) {
+  forEdges(sides, progress, [&](std::size_t b, std::size_t e) {
     int net = 0;
     for (std::size_t i = b; i < e; ++i) net += sides[i].upwards ? 1 : -1;
     soup.closed &= net == 0;

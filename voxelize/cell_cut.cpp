@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/stoppable.h"
 
 namespace exemplar {
 namespace {
@@ -163,16 +164,22 @@ class Cutter {
   void sortByCell() {
     std::vector<std::uint32_t> order(cut_.polygons.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return cellOf_[a] < cellOf_[b]; });
+    sortInParallel(order, progress_, [&](std::uint32_t a, std::uint32_t b) {
+      return cellOf_[a] != cellOf_[b] ? cellOf_[a] < cellOf_[b] : a < b;
+    });
     std::vector<CutPolygon> sorted;
     sorted.reserve(order.size());
-    cut_.first.assign(static_cast<std::size_t>(volume(size_)) + 1, 0);
+    cut_.first = filled<HugeVector<std::uint32_t>>(static_cast<std::size_t>(volume(size_)) + 1, 0,
+                                                   progress_);
     for (const std::uint32_t n : order) {
+      if (looksUp(sorted.size())) progress_.check();
       sorted.push_back(cut_.polygons[n]);
       ++cut_.first[cellOf_[n] + 1];
     }
-    for (std::size_t c = 1; c < cut_.first.size(); ++c) cut_.first[c] += cut_.first[c - 1];
+    for (std::size_t c = 1; c < cut_.first.size(); ++c) {
+      if (looksUp(c)) progress_.check();
+      cut_.first[c] += cut_.first[c - 1];
+    }
     cut_.polygons = std::move(sorted);
   }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/huge_pages.h"
 #include "core/progress.h"
 #include "mesh/triangle_mesh.h"
 
@@ -29,8 +30,7 @@ struct CellCut {
   Vec3i size;
   std::vector<CutPoint> points;
   std::vector<CutPolygon> polygons;  ///< cell by cell (x fastest), in each by triangle
-  std::vector<std::uint32_t>
-      first;  ///< the first polygon of each cell, and their number at the end
+  HugeVector<std::uint32_t> first;  ///< the first polygon of each cell, and their number at the end
 };
 
 /// Points nearer to a plane between cells than this are moved onto it, in cells.

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "core/stoppable.h"
 #include "sdf/ray_parity.h"
 #include "sdf/solid_test.h"
 #include "sdf/triangle_soup.h"
@@ -78,7 +79,8 @@ void checkOptions(const MeshToLabelsOptions& options) {
 
 }  // namespace
 
-LabelGrid gridOver(const Box3d& box, const Vec3d& cellSize, int air, double slack) {
+LabelGrid gridOver(const Box3d& box, const Vec3d& cellSize, int air, double slack,
+                   const Progress& progress) {
   LabelGrid grid;
   Vec3i size;
   for (int axis = 0; axis < 3; ++axis) {
@@ -99,7 +101,7 @@ LabelGrid gridOver(const Box3d& box, const Vec3d& cellSize, int air, double slac
   grid.cellSize = cellSize;
   requireMemory(16.0 * static_cast<double>(volume(size)), "the grid of cells",
                 "use a larger `cell`");
-  grid.cells = Array3D<Label>(size);
+  grid.cells = Array3D<Label>::of(size, filled<HugeVector<Label>>(volume(size), 0, progress));
   grid.labels.push_back(emptyLook());
   return grid;
 }
@@ -108,8 +110,9 @@ Array3D<std::uint8_t> cellsInside(const TriangleMesh& mesh, const LabelGrid& gri
                                   const Progress& progress) {
   progress.report(kInsideStage, 0);
   const Vec3i size = grid.size();
-  Array3D<std::uint8_t> inside(size);
-  const TriangleSoup soup = makeSoup(inCells(mesh, grid), {0, 0, 0}, 1);
+  auto inside = Array3D<std::uint8_t>::of(
+      size, filled<HugeVector<std::uint8_t>>(grid.cells.count(), 0, progress));
+  const TriangleSoup soup = makeSoup(inCells(mesh, grid), {0, 0, 0}, 1, progress.part(0, 0.2));
   if (soup.triangles.empty()) return inside;
   // The signs of `meshToSdf` without its distances.
   std::optional<ParityTest> parity;
@@ -117,7 +120,7 @@ Array3D<std::uint8_t> cellsInside(const TriangleMesh& mesh, const LabelGrid& gri
   if (soup.even && !soup.closed) {
     parity.emplace(soup);
   } else {
-    solid.emplace(soup, std::make_shared<const TriangleTree>(cornersOf(soup)));
+    solid.emplace(soup, std::make_shared<const TriangleTree>(cornersOf(soup), progress), progress);
   }
   progress.report(kInsideStage, 0.3);
   // Cells of a block are near each other, which makes winding numbers quick.
@@ -161,8 +164,8 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
     const double side = std::max({box.size().x, box.size().y, box.size().z}) / options.resolution;
     cellSize = {side, side, side};
   }
-  LabelGrid grid = gridOver(box, cellSize, options.air);
-  std::vector<std::uint32_t> material(grid.cells.count(), kNoMaterial);
+  LabelGrid grid = gridOver(box, cellSize, options.air, kCutTolerance, progress);
+  auto material = filled<HugeVector<std::uint32_t>>(grid.cells.count(), kNoMaterial, progress);
 
   if (options.fill != VoxelFill::Solid) {
     const CellCut cut = cutAlongCells(mesh, grid.origin, grid.cellSize, grid.size(), kCutTolerance,
@@ -181,7 +184,7 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
     for (const auto& [a, b, c] : mesh.triangles) {
       corners.push_back({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
     }
-    const TriangleTree tree(std::move(corners));
+    const TriangleTree tree(std::move(corners), progress);
     parallelFor(0, grid.cells.count(), 1024, [&](std::size_t begin, std::size_t end) {
       progress.check();
       for (std::size_t c = begin; c < end; ++c) {
@@ -201,8 +204,9 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
   const std::vector<std::array<float, 4>> colors = materialColors(mesh);
   std::vector<Label> labelOf(materials, 0);
   std::vector<bool> used(materials, false);
-  for (const std::uint32_t m : material) {
-    if (m != kNoMaterial) used[m] = true;
+  for (std::size_t c = 0; c < material.size(); ++c) {
+    if (looksUp(c)) progress.check();
+    if (material[c] != kNoMaterial) used[material[c]] = true;
   }
   for (std::size_t m = 0; m < materials; ++m) {
     if (!used[m]) continue;
@@ -221,6 +225,7 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
     }
   }
   for (std::size_t c = 0; c < material.size(); ++c) {
+    if (looksUp(c)) progress.check();
     if (material[c] != kNoMaterial) grid.cells.values()[c] = labelOf[material[c]];
   }
   return grid;

@@ -43,8 +43,9 @@ LabelGrid meshToLabels(const TriangleMesh& mesh, const MeshToLabelsOptions& opti
 /// A grid of cells over a box: as many as it takes to cover it, and `air` more at the four sides
 /// and above. Sides that are multiples of the cell's but for 1e-6 of one take no further cell.
 /// Cells are empty; label 0 is there. Throws `InputError` for a size that is not positive and grids
-/// longer than 32,767 cells.
-LabelGrid gridOver(const Box3d& box, const Vec3d& cellSize, int air, double slack = 1e-6);
+/// longer than 32,767 cells, and `Cancelled`.
+LabelGrid gridOver(const Box3d& box, const Vec3d& cellSize, int air, double slack = 1e-6,
+                   const Progress& progress = {});
 
 /// Whether the center of each of a grid's cells lies inside a mesh, as `meshToSdf` finds it.
 Array3D<std::uint8_t> cellsInside(const TriangleMesh& mesh, const LabelGrid& grid,

@@ -15,6 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 TEST(CompletionCommand, KnowsCommandsOptionsChoicesAndScenes) {
   const TestFolder folder;
@@ -48,6 +49,43 @@ TEST(CompletionCommand, BashProposesWhatMayFollow) {
   EXPECT_THAT(proposedByBash(folder, "exemplar synth cast"), HasSubstr("castle "));
   EXPECT_THAT(proposedByBash(folder, "exemplar synth cast"), HasSubstr("castle_wall.obj "));
   EXPECT_THAT(proposedByBash(folder, "exemplar mesh -"), Not(HasSubstr("--engine ")));
+}
+
+bool isThere(const std::string& shell) {
+  return std::system(("command -v " + shell + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// What a line of a shell prints, run in a folder with the completions in `completion`, and "end".
+std::string printedBy(const TestFolder& folder, const std::string& line) {
+  const std::string quiet =
+      "cd '" + folder.path().string() + "' && " + line + " > printed 2>&1 && echo end >> printed";
+  return std::system(quiet.c_str()) == 0 ? readFile(folder / "printed") : "failed";
+}
+
+TEST(CompletionCommand, FishProposesWhatMayFollow) {
+  if (!isThere("fish")) GTEST_SKIP() << "fish is not there";
+  const TestFolder folder;
+  writeFile(folder / "completion", runExemplar("completion fish", folder.path()).out);
+  const auto proposed = [&](const std::string& words) {
+    return printedBy(folder, "HOME=. fish -c 'source completion; complete -C \"" + words + "\"'");
+  };
+  EXPECT_THAT(proposed("exemplar rend"), StartsWith("render\t"));
+  EXPECT_THAT(proposed("exemplar synth --engi"), StartsWith("--engine\t"));
+  EXPECT_THAT(proposed("exemplar synth --engine quil"), StartsWith("quilting"));
+  EXPECT_THAT(proposed("exemplar synth chainm"), StartsWith("chainmail"));
+  EXPECT_EQ(proposed("exemplar mesh --engi"), "end\n");
+}
+
+TEST(CompletionCommand, ZshKnowsTheCommand) {
+  if (!isThere("zsh")) GTEST_SKIP() << "zsh is not there";
+  const TestFolder folder;
+  writeFile(folder / "completion", runExemplar("completion zsh", folder.path()).out);
+  EXPECT_EQ(printedBy(folder,
+                      "zsh -fc 'autoload -Uz compinit && compinit -D -u && . ./completion && "
+                      "print -- $_comps[exemplar]'"),
+            "_exemplar\nend\n");
+  writeFile(folder / "completion", "_exemplar() { case $1 in");
+  EXPECT_EQ(printedBy(folder, "zsh -n completion"), "failed") << "what zsh cannot read is found";
 }
 
 TEST(CompletionCommand, RefusesOtherShells) {

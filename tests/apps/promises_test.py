@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy as np
@@ -107,9 +108,11 @@ class Promises(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def run_command(self, *words):
+    def run_command(self, *words, path=None):
+        """Runs the command; path: the folders in which it finds programs."""
+        environment = dict(os.environ, PATH=path) if path else None
         return subprocess.run([COMMAND, *words], cwd=self.folder, capture_output=True, text=True,
-                              check=False)
+                              check=False, env=environment)
 
     def synth(self, *words):
         done = self.run_command("synth", "wall.obj", *words)
@@ -181,6 +184,42 @@ class Promises(unittest.TestCase):
             self.assertIn(name, text.stdout)
             self.assertIn(version, text.stdout)
         self.assertIn(said["arithmetic"], text.stdout)
+
+    def test_tells_triangles_and_megabytes(self):
+        done = self.run_command("synth", "wall.obj", "-o", "o.glb", "-r", "24", "--scale", "2,1,1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = re.search(r"o\.glb: ([\d,]+) triangles,.*, ([\d.]+) ([KM]B)\n", done.stdout + done.stderr)
+        self.assertIsNotNone(told, done.stdout + done.stderr)
+        triangles, size, unit = told.groups()
+        with open(self.path("o.glb"), "rb") as file:
+            data = file.read()
+        document = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+        corners = sum(document["accessors"][part["indices"]]["count"]
+                      for mesh in document["meshes"] for part in mesh["primitives"])
+        self.assertEqual(int(triangles.replace(",", "")), corners // 3)
+        self.assertAlmostEqual(float(size) * {"MB": 1e6, "KB": 1e3}[unit] / len(data), 1, delta=0.1)
+
+    def test_open_hands_the_picture_to_the_desktop(self):
+        os.mkdir(self.path("bin"))
+        opener = self.path("bin/xdg-open")
+        with open(opener, "w", encoding="ascii") as file:
+            file.write(f"#!/bin/sh\nprintf %s \"$1\" > '{self.path('new')}'\n"
+                       f"mv '{self.path('new')}' '{self.path('opened')}'\n")
+        os.chmod(opener, 0o755)
+        words = ("synth", "wall.obj", "-o", "o.ply", "-r", "16", "--scale", "1,1,1", "--open")
+        done = self.run_command(*words, "--preview", "o.png", "--picture-size", "64x48", "--samples", "1",
+                                path=self.path("bin") + ":" + os.environ["PATH"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for _ in range(200):  # it is another process, for which nobody waits
+            if os.path.exists(self.path("opened")):
+                break
+            time.sleep(0.05)
+        with open(self.path("opened"), encoding="utf-8") as file:
+            self.assertTrue(os.path.samefile(file.read(), self.path("o.png")))
+        # Where there is no desktop, that is said, and the result is there.
+        done = self.run_command(*words, path=self.path("nowhere"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("--open: nothing here opens", done.stderr)
 
     def test_volumes_may_have_y_up(self):
         read = ("-r", "16", "--padding", "2,3,4")

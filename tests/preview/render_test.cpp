@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "mesh/primitives.h"
+#include "tests/preview/panels.h"
 #include "tests/progress_checks.h"
 #include "tests/threads.h"
 
@@ -191,7 +192,10 @@ TEST(SideBySide, PutsPicturesInARow) {
   Image8 a{2, 2, 3, std::vector<std::uint8_t>(12, 10)},
       b{3, 4, 3, std::vector<std::uint8_t>(36, 20)};
   const std::vector<Image8> both{a, b};
-  const Image8 row = sideBySide(both, 1);
+  const Image8 row = sideBySide(both, {.gap = 1});
+  const Image8 standing = sideBySide(both, {.onFloor = true, .behind = kPage});
+  EXPECT_EQ(standing.at(0, 1)[0], kPage[0]);
+  EXPECT_EQ(standing.at(0, 2)[0], 10);
   EXPECT_EQ(row.width, 6);
   EXPECT_EQ(row.height, 4);
   EXPECT_EQ(row.at(0, 1)[0], 10);
@@ -201,22 +205,7 @@ TEST(SideBySide, PutsPicturesInARow) {
   EXPECT_THROW(sideBySide({}), InputError);
 }
 
-/// The columns, or rows, of a picture that show more than the background, in runs: the first and
-/// the last of each.
-std::vector<std::array<int, 2>> runsOf(const Image8& image, bool columns) {
-  std::vector<std::array<int, 2>> runs;
-  for (int i = 0; i < (columns ? image.width : image.height); ++i) {
-    bool shown = false;
-    for (int j = 0; j < (columns ? image.height : image.width) && !shown; ++j)
-      shown = columns ? !isBackground(image, i, j) : !isBackground(image, j, i);
-    if (!shown) continue;
-    if (runs.empty() || runs.back()[1] < i - 2) runs.push_back({i, i});
-    runs.back()[1] = i;
-  }
-  return runs;
-}
-
-TEST(SideBySide, MeshesFillTheRowAtOneScaleOnOneFloor) {
+TEST(SideBySide, MeshesFillTheirPanelsAtOneScaleOnOneFloor) {
   RenderOptions options = quick("front");
   options.ground = false;
   options.samples = 32;
@@ -225,17 +214,40 @@ TEST(SideBySide, MeshesFillTheRowAtOneScaleOnOneFloor) {
   const Image8 row = renderSideBySide(meshes, options);
   EXPECT_LE(row.width, 2 * options.width);
   EXPECT_LE(row.height, options.height);
-  EXPECT_TRUE(row.width == 2 * options.width || row.height >= options.height - 3) << row.width;
-  const auto across = runsOf(row, true), down = runsOf(row, false);
-  ASSERT_EQ(across.size(), 2u);
-  ASSERT_EQ(down.size(), 1u);
-  const int small = across[0][1] - across[0][0], large = across[1][1] - across[1][0];
-  EXPECT_NEAR(large, 2 * small, 4) << "one scale";
-  EXPECT_GT(small + large, 0.85 * row.width);
-  EXPECT_GT(down[0][1] - down[0][0], 0.8 * row.height);
-  // Both stand on the lowest row that shows anything.
-  for (const auto& run : across)
-    EXPECT_FALSE(isBackground(row, (run[0] + run[1]) / 2, down[0][1] - 2));
+  EXPECT_TRUE(row.width >= 2 * options.width - 3 || row.height >= options.height - 3) << row.width;
+  const std::vector<Panel> panels = panelsOf(row);
+  ASSERT_EQ(panels.size(), 2u);
+  EXPECT_NEAR(panels[1].shown.width, 2 * panels[0].shown.width, 4) << "one scale";
+  for (const Panel& panel : panels) {
+    EXPECT_GT(panel.filled(), 0.7);
+    EXPECT_EQ(panel.at.top + panel.at.height, row.height);
+  }
+  const auto floorOf = [](const Panel& panel) { return panel.shown.top + panel.shown.height; };
+  EXPECT_NEAR(floorOf(panels[0]), floorOf(panels[1]), 2);
+}
+
+TEST(SideBySide, LongThinAndSmallOnesFillTheirPanelsToo) {
+  const std::vector<TriangleMesh> meshes{makeBox({{0, 0, 0}, {20, 1, 1}}), makeSphere({0, 0, 0}, 1),
+                                         makeBox({{0, 0, 0}, {1, 1, 12}})};
+  RenderOptions options = quick();
+  options.width = 320;
+  options.height = 240;
+  const std::vector<Panel> panels = panelsOf(renderSideBySide(meshes, options));
+  ASSERT_EQ(panels.size(), 3u);
+  for (const Panel& panel : panels) EXPECT_GT(panel.filled(), 0.6);
+}
+
+TEST(SideBySide, APanelThatIsNotFilledIsFound) {
+  Image8 loose{100, 60, 3, std::vector<std::uint8_t>(18000, kBackground[0])};
+  for (int y = 20; y < 50; ++y)
+    for (int x = 10; x < 70; ++x) loose.at(x, y)[1] = 30;
+  const std::vector<Image8> two{loose, Image8{10, 20, 3, std::vector<std::uint8_t>(600, 0)}};
+  const std::vector<Panel> panels =
+      panelsOf(sideBySide(two, {.gap = 4, .onFloor = true, .behind = kPage}));
+  ASSERT_EQ(panels.size(), 2u);
+  EXPECT_DOUBLE_EQ(panels[0].filled(), 0.3);
+  EXPECT_EQ(panels[1].at.left, 104);
+  EXPECT_EQ(panels[1].at.top, 40);
 }
 
 TEST(SideBySide, OneMeshAloneHasThePictureThatItHadWithoutTheRow) {
