@@ -17,18 +17,23 @@ def write(path, vertices, triangles):
             file.write(f"f {a + 1} {b + 1} {c + 1}\n")
 
 
-def write_sized(path, vertices, triangles, sizes):
-    """A .ply, which has z upward, whose alpha is 0 where an example has half its size, 1 for twice."""
-    alphas = np.clip(np.round(255 * (np.log2(sizes) + 1) / 2), 0, 255).astype(int)
+def write_painted(path, vertices, triangles, reds, alphas):
+    """A .ply, which has z upward, with two channels of 0..1."""
+    red, alpha = (np.clip(np.round(255 * np.asarray(c)), 0, 255).astype(int) for c in (reds, alphas))
     properties = [f"property float {axis}" for axis in "xyz"]
     properties += [f"property uchar {channel}" for channel in ("red", "green", "blue", "alpha")]
     with open(path, "w", encoding="ascii") as file:
         file.write(f"ply\nformat ascii 1.0\nelement vertex {len(vertices)}\n" + "\n".join(properties))
         file.write(f"\nelement face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
-        for (x, y, z), alpha in zip(vertices, alphas):
-            file.write(f"{x:.6f} {y:.6f} {z:.6f} 180 180 180 {alpha}\n")
+        for n, (x, y, z) in enumerate(vertices):
+            file.write(f"{x:.6f} {y:.6f} {z:.6f} {red[n]} 180 180 {alpha[n]}\n")
         for a, b, c in triangles:
             file.write(f"3 {a} {b} {c}\n")
+
+
+def write_sized(path, vertices, triangles, sizes):
+    """Its alpha is 0 where an example has half its size, 1 for twice."""
+    write_painted(path, vertices, triangles, np.full(len(vertices), 180 / 255), (np.log2(sizes) + 1) / 2)
 
 
 def grid(columns, rows, place, around):
@@ -184,6 +189,13 @@ def torus(i, j):
     return ((1 + 0.4 * np.cos(b)) * np.cos(a), (1 + 0.4 * np.cos(b)) * np.sin(a), 0.4 * np.sin(b))
 
 
+def patches(vertices):
+    """Red in three places on the outside of a torus."""
+    x, y, z = np.array(vertices).T
+    outward = (np.hypot(x, y) - 1) / 0.4
+    return np.where(np.sin(3 * np.arctan2(y, x)) + outward > 0.2, 1.0, 0.0)
+
+
 def hill(i, j):
     x, y = 2 * i / 39 - 1, 2 * j / 39 - 1
     return (x, y, 0.6 * np.exp(-3 * (x * x + y * y)) + 0.08 * np.sin(3 * x))
@@ -193,6 +205,8 @@ if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     folder.mkdir(parents=True, exist_ok=True)
     write(folder / "torus.obj", *grid(96, 48, torus, True))
+    ring = grid(96, 48, torus, True)
+    write_painted(folder / "ring.ply", *ring, patches(ring[0]), np.ones(len(ring[0])))
     write(folder / "hill.obj", *grid(39, 39, hill, False))
     write(folder / "rabbit.obj", *contour(rabbit, (-1, -0.8, -0.2), (1.2, 0.8, 2), (56, 41, 56)))
     body = contour(lizard, (-2, -1.1, -0.2), (2.2, 1.1, 1.5), (106, 56, 44))
