@@ -93,14 +93,16 @@ Grid<std::uint16_t> distancesOf(const BoundaryPatches& set, const BoundaryPatche
   return distances;
 }
 
-std::vector<BoundaryMatch> assignExactly(const BoundaryPatches& set,
-                                         const BoundaryPatches& examples,
-                                         const std::vector<std::uint32_t>& uses,
-                                         const Progress& progress) {
+/// Nothing where neither of the two can.
+std::optional<std::vector<BoundaryMatch>> assignExactly(const BoundaryPatches& set,
+                                                        const BoundaryPatches& examples,
+                                                        const std::vector<std::uint32_t>& uses,
+                                                        const Progress& progress) {
   const Grid<std::uint16_t> distances = distancesOf(set, examples, progress);
-  std::optional<std::vector<std::uint32_t>> columns;
-  if (set.count() > kMostByPaths) columns = assignByAuction(distances, uses, progress);
-  if (!columns) columns = assignByPaths(distances, uses, progress);
+  const std::optional<std::vector<std::uint32_t>> columns =
+      set.count() > kMostByPaths ? assignByAuction(distances, uses, progress)
+                                 : assignByPaths(distances, uses, progress);
+  if (!columns) return std::nullopt;
   std::vector<BoundaryMatch> served;
   for (std::size_t s = 0; s < set.count(); ++s)
     served.push_back(bestTurn(set, s, examples, (*columns)[s]));
@@ -179,7 +181,7 @@ std::vector<BoundaryMatch> assignPatches(const BoundaryPatches& set,
                                          std::vector<std::uint32_t> uses, AssignmentKind kind,
                                          const Random& random, const Progress& progress) {
   if (kind == AssignmentKind::Exact && set.count() * examples.count() <= kMostExactPairs)
-    return assignExactly(set, examples, uses, progress);
+    if (auto exact = assignExactly(set, examples, uses, progress)) return *std::move(exact);
   return assignGreedily(set, examples, std::move(uses), random, progress);
 }
 

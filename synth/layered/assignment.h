@@ -15,9 +15,9 @@ namespace exemplar {
 /// How patches of the example are dealt out.
 enum class AssignmentKind {
   Greedy,  ///< cheapest pairs first; within a few hundredths of the optimum
-  /// The optimum: of up to `kMostByPaths` patches by `assignByPaths`, of
-  /// more by auction (`assignByAuction`). Keeps 2 bytes for each pair of a patch and one of the
-  /// example; where there are more than `kMostExactPairs` pairs, greedy.
+  /// The optimum: of up to `kMostByPaths` patches by `assignByPaths`, of more by
+  /// `assignByAuction`. Keeps 2 bytes for each pair of a patch and one of the example; greedy where
+  /// there are more than `kMostExactPairs` pairs, or the auction gives nothing.
   Exact,
 };
 inline constexpr std::size_t kMostByPaths = 2000, kMostExactPairs = std::size_t{1} << 27;

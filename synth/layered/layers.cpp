@@ -178,7 +178,7 @@ struct Room {
 
 /// Votes of the layer below change what the coarser resolution made where they agree by so much.
 /// Those that are split break up its shapes and make their boundary a fifth too long.
-constexpr float kAgreed = 0.9f;
+constexpr float kAgreed = 0.75f;
 
 /// `share` of the cells is the layer above's. Of what is not open the mask holds all.
 Room roomAbove(const OptimizedShape& below, const ShapeExample& example, const Shape& above,

@@ -174,7 +174,11 @@ Instance instance(int side, std::uint64_t seed) {
 
 TEST(AssignPatches, UsesEveryExampleAlike) {
   for (const AssignmentKind kind : {AssignmentKind::Greedy, AssignmentKind::Exact}) {
-    const Instance i = instance(70, 3);
+    // By auction where exact.
+    const Instance i = instance(kind == AssignmentKind::Exact ? 160 : 70, 3);
+    if (kind == AssignmentKind::Exact) {
+      ASSERT_GT(i.set.count(), kMostByPaths);
+    }
     const std::size_t wanted = i.set.count(), examples = i.examples.count();
     const std::vector<std::uint32_t> uses = fairUses(wanted, examples, Random(1));
     EXPECT_EQ(std::accumulate(uses.begin(), uses.end(), std::size_t{0}), wanted);
