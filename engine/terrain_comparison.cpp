@@ -202,6 +202,28 @@ std::vector<const HeightMap*> besideExample(const HeightMap& example,
   return all;
 }
 
+/// Writes a picture into the folder.
+using WritePicture = std::function<void(const std::string& name, const Image8& image)>;
+
+/// Says how far the seeds of each engine are apart and draws them. Returns each engine's first
+/// result.
+std::vector<HeightMap> finishSeeds(std::vector<Seeds>& made, const HeightMap& example,
+                                   const ComparisonOptions& options, Json& report,
+                                   const WritePicture& write, const Progress& progress) {
+  std::vector<HeightMap> firsts;
+  for (Seeds& seeds : made) {
+    if (seeds.seeds.size() > 1) {
+      const ComparedSeeds compared = seeds.compared(progress.part(0, 0));
+      addSeeds(compared, "their layout", report);
+      if (options.compared) options.compared(compared);
+      write(fileName(seeds.engine) + "-seeds.png",
+            relief(besideExample(example, seeds.shown), options.picture, progress.part(0, 1)));
+    }
+    if (!seeds.shown.empty()) firsts.push_back(std::move(seeds.shown.front()));
+  }
+  return firsts;
+}
+
 }  // namespace
 
 void compareTerrain(const Source& source, const ReadOptions& reading,
@@ -217,13 +239,16 @@ void compareTerrain(const Source& source, const ReadOptions& reading,
   const HeightMap& example = comparison.example().heights();
   for (const std::string& warning : comparison.example().warnings)
     warn(options.picture.warnings, warning);
-  const auto write = [&](const std::string& name, const auto& writeIt) {
-    writeIt(folder / name);
+  const auto wrote = [&](const std::string& name) {
     if (options.wrote) options.wrote(folder / name);
+  };
+  const auto write = [&](const std::string& name, const Image8& image) {
+    writePng(folder / name, image);
+    wrote(name);
   };
   const HeightMap* alone[] = {&example};
   const Image8 ofExample = relief(alone, options.picture, progress.part(0.02, 0.04));
-  write("example.png", [&](const fs::path& path) { writePng(path, ofExample); });
+  write("example.png", ofExample);
 
   ReportPage page;
   page.addPicture("example", ofExample);
@@ -268,9 +293,9 @@ void compareTerrain(const Source& source, const ReadOptions& reading,
         json["cell_size"] = run.heights.cellSize;
         const HeightMap* both[] = {&example, &run.heights};
         const Image8 image = relief(both, options.picture, part.part(0.9, 1));
-        write(name + ".png", [&](const fs::path& path) { writePng(path, image); });
-        write(name + ".tif",
-              [&](const fs::path& path) { writeHeightMap(path, run.heights, {}, {}); });
+        write(name + ".png", image);
+        writeHeightMap(folder / (name + ".tif"), run.heights, {}, {});
+        wrote(name + ".tif");
         if (page.bytes() < kReportBytes / 2) page.addPicture(name, image);
         if (finished) finished(run.said);
         made[e].add(std::move(run));
@@ -281,23 +306,12 @@ void compareTerrain(const Source& source, const ReadOptions& reading,
       report["runs"].push_back(std::move(json));
     }
   }
-  std::vector<HeightMap> firsts;
-  for (Seeds& seeds : made) {
-    if (seeds.seeds.size() > 1) {
-      const ComparedSeeds compared = seeds.compared(progress.part(0.95, 0.95));
-      addSeeds(compared, "their layout", report);
-      if (options.compared) options.compared(compared);
-      const std::string name = fileName(seeds.engine) + "-seeds";
-      const Image8 image =
-          relief(besideExample(example, seeds.shown), options.picture, progress.part(0.95, 0.96));
-      write(name + ".png", [&](const fs::path& path) { writePng(path, image); });
-    }
-    if (!seeds.shown.empty()) firsts.push_back(std::move(seeds.shown.front()));
-  }
+  const std::vector<HeightMap> firsts =
+      finishSeeds(made, example, options, report, write, progress.part(0.95, 0.96));
   if (!firsts.empty()) {
     const Image8 image =
         relief(besideExample(example, firsts), options.picture, progress.part(0.96, 0.98));
-    write("compare.png", [&](const fs::path& path) { writePng(path, image); });
+    write("compare.png", image);
   }
   progress.report("writing the report", 0.98);
   writeFile(folder / "compare.json", jsonText(report, 2) + "\n");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -31,6 +32,12 @@ Grid<float> readMask(const Source& source) {
   if (layer.planes.size() != 1)
     throw InputError(source.name() + ": a colored picture; a mask is gray, black and white");
   return std::move(layer.planes.front());
+}
+
+/// What `height-scale` says of the example holds for files of its kind: of integers, or of heights.
+std::optional<double> scaleFor(const std::string& file, const Example& example) {
+  const bool alike = holdsIntegers(file) == holdsIntegers(example.source.path());
+  return alike ? example.reading.heightScale : std::nullopt;
 }
 
 void requireWhole(const HeightMap& map, const std::string& name) {
@@ -85,7 +92,7 @@ void hold(TerrainControl& control, int x, int y, float height, float firmness) {
 
 CoarseTerrain readCoarseTerrain(const std::string& file, const Example& example,
                                 const Progress& progress) {
-  CoarseTerrain coarse{readHeights(file, {.heightScale = example.reading.heightScale}, progress)};
+  CoarseTerrain coarse{readHeights(file, {.heightScale = scaleFor(file, example)}, progress)};
   requireWhole(coarse.map, file);
   if (coarse.map.cellSizeKnown && example.heights().cellSizeKnown) {
     coarse.factor = coarse.map.cellSize / example.heights().cellSize;
@@ -98,36 +105,46 @@ CoarseTerrain readCoarseTerrain(const std::string& file, const Example& example,
   return coarse;
 }
 
-Grid<float> readTerrainGuide(const Source& source, std::span<const Grid<float>> examples,
-                             double cellSize, int width, int height, const Progress& progress) {
+TerrainGuide readTerrainGuide(const Source& source, std::span<const Grid<float>> examples,
+                              double cellSize, int width, int height, const Progress& progress) {
   const std::string ending = lowerExtension(source.path());
   if (ending == ".csv" || ending == ".txt") {
-    return guideOfLines(parseLines(readBytes(source), source.name(), cellSize, height), width,
-                        height, examples, progress);
+    LinesGuide lines = guideOfLines(parseLines(readBytes(source), source.name(), cellSize, height),
+                                    width, height, examples, progress);
+    return {std::move(lines.heights), std::move(lines.weight)};
   }
   if (!source.inMemory<HeightMap>() && !isHeightMapFile(source.path())) {
     throw InputError(source.name() + ": `guide` of a terrain is a height map (" +
                      kHeightMapEndings + "), or lines (.csv .txt)");
   }
   HeightMap map = readHeights(source, {}, progress);
-  fillHoles(map.heights);
+  TerrainGuide guide;
+  // Where nothing is painted land is free.
+  const std::optional<HeightRange> range = rangeOf(map.heights);
+  if (!range) throw InputError(source.name() + ": has no heights; a guide says some");
+  if (range->holes > 0) {
+    guide.weight = Grid<float>(map.width(), map.height());
+    for (std::size_t s = 0; s < guide.weight.count(); ++s)
+      guide.weight[s] = std::isnan(map.heights[s]) ? 0 : 1;
+    fillHoles(map.heights);
+  }
   std::error_code error;
   const bool said = !map.steps || map.steps->size != 1 || map.steps->offset != 0 ||
                     std::filesystem::exists(heightSidecarPath(source.path()), error);
-  if (said) return std::move(map.heights);
+  guide.heights = std::move(map.heights);
+  if (said) return guide;
   // Painted: from the lowest to the highest of the examples.
-  const std::optional<HeightRange> painted = rangeOf(map.heights);
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (const Grid<float>& example : examples) {
-    const std::optional<HeightRange> range = rangeOf(example);
-    if (!range) continue;
-    low = std::min(low, range->low);
-    high = std::max(high, range->high);
+    const std::optional<HeightRange> own = rangeOf(example);
+    if (!own) continue;
+    low = std::min(low, own->low);
+    high = std::max(high, own->high);
   }
-  const double span = painted->relief() > 0 ? painted->relief() : 1;
-  for (float& h : map.heights.values())
-    h = static_cast<float>(low + (h - painted->low) / span * (high - low));
-  return std::move(map.heights);
+  const double span = range->relief() > 0 ? range->relief() : 1;
+  for (float& h : guide.heights.values())
+    h = static_cast<float>(low + (h - range->low) / span * (high - low));
+  return guide;
 }
 
 void readHeld(const std::optional<Source>& keep, const TerrainFiles& files, const Example& example,
@@ -174,7 +191,8 @@ void readHeld(const std::optional<Source>& keep, const TerrainFiles& files, cons
   if (files.mask.empty()) return;
   Grid<float> base = example.heights().heights;
   if (!files.base.empty()) {
-    base = readHeights(files.base, {.heightScale = example.reading.heightScale}, progress).heights;
+    const std::optional<double> scale = scaleFor(files.base, example);
+    base = readHeights(files.base, {.heightScale = scale}, progress).heights;
   }
   if (base.width() != width || base.height() != height) {
     const std::string name = files.base.empty() ? example.name() : files.base;

@@ -33,12 +33,18 @@ struct CoarseTerrain {
 CoarseTerrain readCoarseTerrain(const std::string& file, const Example& example,
                                 const Progress& progress = {});
 
-/// Rough heights: a height map, which holds heights of the example's unit, or grays from its lowest
+/// Rough heights, and how much they count where: in full where the weight is empty.
+struct TerrainGuide {
+  Grid<float> heights, weight;
+};
+/// Reads a guide: a height map, which holds heights of the example's unit, or grays from its lowest
 /// to its highest where the file holds integers that nothing is said about; or lines (.csv .txt).
 /// Each line of such a file is `ridge` or `valley` and points `x,y` or `x,y,height` in the result's
-/// coordinates, x from its west, y from its south; `#` begins a comment. Throws `InputError`.
-Grid<float> readTerrainGuide(const Source& source, std::span<const Grid<float>> examples,
-                             double cellSize, int width, int height, const Progress& progress = {});
+/// coordinates, x from its west, y from its south; `#` begins a comment. Land is free where a map
+/// has no data (a picture is transparent), and away from lines. Throws `InputError`.
+TerrainGuide readTerrainGuide(const Source& source, std::span<const Grid<float>> examples,
+                              double cellSize, int width, int height,
+                              const Progress& progress = {});
 
 /// What the settings of the engine terrain say that holds for any part of a result. Throws
 /// `InputError` naming those that speak of a whole.

@@ -201,8 +201,10 @@ class TerrainEngine final : public Engine {
     options.control.follow = settings.files.follow;
     std::optional<CoarseTerrain> coarse;
     if (request.guide) {
-      options.control.guide = readTerrainGuide(*request.guide, heights, first.cellSize, size.x,
-                                               size.y, progress.part(0, 0.03));
+      TerrainGuide guide = readTerrainGuide(*request.guide, heights, first.cellSize, size.x, size.y,
+                                            progress.part(0, 0.03));
+      options.control.guide = std::move(guide.heights);
+      options.control.guideWeight = std::move(guide.weight);
     } else if (!settings.files.detailOf.empty()) {
       coarse = readCoarseTerrain(settings.files.detailOf, examples.front());
       options.control.guide = coarse->map.heights;

@@ -26,7 +26,7 @@ class TerrainLayout {
 struct TerrainDistance {
   double plain = 0;  ///< as they lie
   /// After the best move, what leaves on one side coming in on the other, in the best of eight
-  /// orientations. Of independent land .6 to .8: some move always suits a little. Maps that are not
+  /// orientations. Of independent land .7 to .9: some move always suits a little. Maps that are not
   /// square are moved on a square with nothing beside them.
   double moved = 0;
 };

@@ -59,7 +59,7 @@ def eroded(side=256):
         for cell in reversed(order):
             if down[cell] != cell:
                 area[down[cell]] += area[cell]
-        new = [0.0] * heights.size
+        new = (20 * fractal((side, side), 3, 3)).ravel().tolist()
         for cell in order:
             if down[cell] != cell:
                 apart = abs(cell - down[cell])

@@ -5,16 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
+#include "maps/distance_transform.h"
 #include "synth/terrain/gradient_domain.h"
 
 namespace exemplar {
 namespace {
 
 constexpr int kLongest = 192;
-constexpr double kRidge = 0.9, kValleyBegin = 0.3, kValleyEnd = 0.05;
+constexpr double kRidge = 0.97, kValleyBegin = 0.3, kValleyEnd = 0.05;
 /// How far the membrane reaches, as a share of the guide's longest side.
 constexpr double kReach = 0.25;
+/// How far lines count, as a share of it: in full up to half as far.
+constexpr double kCounts = 0.04;
 
 /// Heights that shares of the examples' samples do not reach.
 class Heights {
@@ -68,8 +73,8 @@ std::vector<double> heightsAlong(const TerrainLine& line, const Heights& heights
 
 }  // namespace
 
-Grid<float> guideOfLines(std::span<const TerrainLine> lines, int width, int height,
-                         std::span<const Grid<float>> examples, const Progress& progress) {
+LinesGuide guideOfLines(std::span<const TerrainLine> lines, int width, int height,
+                        std::span<const Grid<float>> examples, const Progress& progress) {
   const Heights heights(examples);
   const double scale = std::min(1.0, static_cast<double>(kLongest) / std::max(width, height));
   const int w = std::max(2, static_cast<int>(std::lround(width * scale)));
@@ -99,7 +104,14 @@ Grid<float> guideOfLines(std::span<const TerrainLine> lines, int width, int heig
   const double reach = kReach * std::max(w, h);
   followSteps(guide, {Grid<float>(w, h), Grid<float>(w, h)}, hold,
               {.screen = 1 / (reach * reach), .cycles = 20}, progress);
-  return guide;
+  Grid<std::uint8_t> on(w, h);
+  for (std::size_t s = 0; s < on.count(); ++s) on[s] = hold[s] > 0;
+  const Grid<float> distance = distanceTo(on, false);
+  const double counts = kCounts * std::max(w, h);
+  Grid<float> weight(w, h);
+  for (std::size_t s = 0; s < weight.count(); ++s)
+    weight[s] = static_cast<float>(std::clamp(2 * (1 - distance[s] / counts), 0.0, 1.0));
+  return {std::move(guide), std::move(weight)};
 }
 
 }  // namespace exemplar

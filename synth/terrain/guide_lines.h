@@ -23,11 +23,18 @@ struct TerrainLine {
   std::vector<Point> points;  ///< at least one; of a valley in the order in which its water runs
 };
 
-/// Heights along the lines, and a membrane between them: a guide for `TerrainControl`, at most 192
-/// samples a side. Points without heights get some of the examples': ridges one that nine tenths of
-/// their samples do not reach, valleys ones that fall from three tenths of them to one twentieth.
-/// Samples without a line near go to the examples' median. Throws `Cancelled`.
-Grid<float> guideOfLines(std::span<const TerrainLine> lines, int width, int height,
-                         std::span<const Grid<float>> examples, const Progress& progress = {});
+/// A guide for `TerrainControl`, and how much it counts where.
+struct LinesGuide {
+  Grid<float> heights, weight;
+};
+
+/// Heights along the lines, and a membrane between them, at most 192 samples a side. It counts in
+/// full beside lines, and nothing from .04 of the longer side on, where land is as it would be
+/// without them: wider, it would make land even beside them. Points without heights get some of the
+/// examples': ridges one that .97 of their samples do not reach, valleys ones that fall from three
+/// tenths of them to one twentieth. Heights far from lines go to the examples' median. Throws
+/// `Cancelled`.
+LinesGuide guideOfLines(std::span<const TerrainLine> lines, int width, int height,
+                        std::span<const Grid<float>> examples, const Progress& progress = {});
 
 }  // namespace exemplar

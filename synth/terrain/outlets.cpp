@@ -13,12 +13,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/disjoint_sets.h"
+
 namespace exemplar {
 namespace {
 
 constexpr std::array<Pixel, 8> kSteps{
     {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 constexpr std::uint8_t kOutlet = 8, kUnseen = 9;
+/// How often lakes get levels: where banks have changed, water runs to others.
+constexpr int kLevelings = 2;
 /// Cuts that are less deep than this, of what banks rise in a step, have none.
 constexpr float kShallow = 0.25f;
 /// How much deeper, of the relief, land is cut rather than what is held passed over.
@@ -116,6 +120,10 @@ class Outlets {
   OutletsCut run() {
     OutletsCut made;
     if (!(most_ > least_)) return made;
+    if (water_) {
+      lowerShores();
+      for (int n = 0; n < kLevelings && water_->count > kFirstLake; ++n) levelLakes();
+    }
     if (!options_.kept.empty()) keepHollows();
     if (!options_.outlets.empty()) liftToOutlets();
     fill(made);
@@ -231,7 +239,10 @@ class Outlets {
   std::vector<float> lowestUpstream(const std::vector<float>& level,
                                     const std::vector<std::uint32_t>& order) const {
     const float none = std::numeric_limits<float>::infinity();
+    // Land that stays under water is not lifted.
     std::vector<float> all(heights_.values().begin(), heights_.values().end());
+    for (std::size_t s = 0; s < all.size(); ++s)
+      if (isKept(s)) all[s] = level[s];
     std::vector<float> beyond(all.size(), none);
     for (std::size_t n = order.size(); n-- > 0;) {
       const std::uint32_t s = order[n];
@@ -246,8 +257,30 @@ class Outlets {
     return beyond;
   }
 
-  /// Finds the hollows that stay: none through which lower land drains, which would have to be
-  /// lifted above their water.
+  /// Gives up hollows through which land drains that lies lower than their bottom and does not stay
+  /// as it is: it would have to be lifted by more than they are deep, above their water.
+  void dropThoseAboveLand(const std::vector<std::vector<std::uint32_t>>& hollows,
+                          const std::vector<float>& level,
+                          const std::vector<std::uint32_t>& order) {
+    for (bool dropped = true; dropped;) {
+      dropped = false;
+      const std::vector<float> upstream = lowestUpstream(level, order);
+      for (const std::vector<std::uint32_t>& hollow : hollows) {
+        if (!isKept(hollow.front())) continue;
+        float bottom = most_;
+        for (const std::uint32_t s : hollow) bottom = std::min(bottom, heights_[s]);
+        const auto drainsLower = [&](std::uint32_t s) { return upstream[s] < bottom; };
+        if (std::ranges::none_of(hollow, drainsLower)) continue;
+        for (const std::uint32_t s : hollow) {
+          kept_[s] = 0;
+          standing_[s] = least_;
+        }
+        dropped = true;
+      }
+    }
+  }
+
+  /// Finds the hollows that stay.
   void keepHollows() {
     std::vector<float> level(heights_.values().begin(), heights_.values().end());
     std::vector<std::uint32_t> order;
@@ -255,7 +288,6 @@ class Outlets {
     flood([&](std::uint32_t n,
               std::uint32_t from) { return level[n] = std::max(level[n], level[from]); },
           [&](std::uint32_t s) { order.push_back(s); });
-    const std::vector<float> upstream = lowestUpstream(level, order);
     std::vector<std::vector<std::uint32_t>> hollows = hollowsBelow(level);
     // From the largest size down; those of one size in an order without direction.
     const auto sizeOf = [](const auto& hollow) {
@@ -276,25 +308,112 @@ class Outlets {
       for (; next > sizeOf(hollow); --next)
         left += options_.kept[next - 1] * static_cast<double>(level.size());
       if (static_cast<double>(hollow.size()) > left) continue;
-      // Where all stay, none is lifted.
-      const auto drainsLower = [&](std::uint32_t s) { return upstream[s] < level[s]; };
-      if (all > most && std::ranges::any_of(hollow, drainsLower)) continue;
       left -= static_cast<double>(hollow.size());
       for (const std::uint32_t s : hollow) {
         kept_[s] = 1;
         standing_[s] = level[s];
       }
     }
+    dropThoseAboveLand(hollows, level, order);
   }
 
-  /// Fills hollows by their share, and those that drain through one that stays up to the water in
-  /// that, which would flood them.
+  /// Lowers the land beside water that came to a level below what lay there: no cliffs.
+  void lowerShores() {
+    if (!water_->before.sameSize(heights_)) return;
+    flood([&](std::uint32_t n, std::uint32_t) { return heights_[n]; }, [](std::uint32_t) {});
+    std::vector<std::uint32_t> lowered;
+    for (std::uint32_t s = 0; s < heights_.count(); ++s)
+      if (bodyOf(s) != 0 && heights_[s] < water_->before[s]) lowered.push_back(s);
+    shapeBanks(lowered, {water_->before.values().begin(), water_->before.values().end()});
+  }
+
+  /// Which lake the water of each comes to next; 0 for none. Lakes are numbered as in `water_`.
+  std::vector<std::uint32_t> lakesBelow() {
+    std::vector<std::uint32_t> below(water_->count);
+    std::vector<std::uint8_t> reached(water_->count);
+    flood([&](std::uint32_t n, std::uint32_t) { return heights_[n]; },
+          [&](std::uint32_t s) {
+            const std::uint32_t lake = bodyOf(s);
+            if (lake < kFirstLake || std::exchange(reached[lake], 1)) return;
+            for (std::uint32_t at = s; toward_[at] != kOutlet;) {
+              neighbor(at, toward_[at], at);
+              if (bodyOf(at) == 0 || bodyOf(at) == lake) continue;
+              below[lake] = bodyOf(at) == kSeaBody ? 0 : bodyOf(at);
+              break;
+            }
+          });
+    return below;
+  }
+
+  /// Gives lakes levels at which none runs up into the next: a lake and the one that it runs to
+  /// have the mean level of both where it would be the lower one (pooled adjacent violators: Ayer
+  /// et al., "An empirical distribution function for sampling with incomplete information", 1955).
+  void levelLakes() {
+    const std::vector<std::uint32_t> below = lakesBelow();
+    std::vector<double> level(below.size()), area(below.size());
+    for (std::size_t s = 0; s < heights_.count(); ++s) {
+      level[bodyOf(s)] = heights_[s];
+      area[bodyOf(s)] += 1;
+    }
+    DisjointSets pools(below.size());
+    for (bool joined = true; joined;) {
+      joined = false;
+      for (std::uint32_t lake = kFirstLake; lake < below.size(); ++lake) {
+        const std::uint32_t a = pools.find(lake), b = pools.find(below[lake]);
+        if (below[lake] == 0 || a == b || level[a] >= level[b]) continue;
+        const double sum = level[a] * area[a] + level[b] * area[b], both = area[a] + area[b];
+        pools.join(a, b);
+        level[pools.find(a)] = sum / both;
+        area[pools.find(a)] = both;
+        joined = true;
+      }
+    }
+    std::vector<float> wanted(below.size());
+    for (std::uint32_t lake = kFirstLake; lake < below.size(); ++lake)
+      wanted[lake] = static_cast<float>(level[pools.find(lake)]);
+    moveLakes(wanted);
+  }
+
+  /// Moves lakes to levels: land that lies lower beside a lake that rises comes to its level, and
+  /// the banks of one that falls come with it.
+  void moveLakes(const std::vector<float>& level) {
+    const std::vector<float> before(heights_.values().begin(), heights_.values().end());
+    std::vector<std::uint32_t> lowered, raised;
+    for (std::uint32_t s = 0; s < before.size(); ++s) {
+      const std::uint32_t lake = bodyOf(s);
+      if (lake < kFirstLake || level[lake] == before[s]) continue;
+      (level[lake] < before[s] ? lowered : raised).push_back(s);
+      heights_[s] = level[lake];
+    }
+    for (std::size_t at = 0; at < raised.size(); ++at) {
+      for (int d = 0; d < 8; ++d) {
+        std::uint32_t n;
+        if (!neighbor(raised[at], d, n) || isHeld(n)) continue;
+        if (!(heights_[n] < heights_[raised[at]])) continue;
+        heights_[n] = heights_[raised[at]];
+        raised.push_back(n);
+      }
+    }
+    shapeBanks(lowered, before);
+  }
+
+  /// Lakes are water that stands, as that in hollows that stay.
+  void standAtLakes() {
+    if (!water_ || water_->count <= kFirstLake) return;
+    if (standing_.empty()) standing_.assign(heights_.count(), least_);
+    for (std::size_t s = 0; s < standing_.size(); ++s)
+      if (bodyOf(s) >= kFirstLake) standing_[s] = heights_[s];
+  }
+
+  /// Fills hollows by their share, and those that drain through water that stands up to that, which
+  /// would flood them.
   void fill(OutletsCut& made) {
     std::vector<float> level(heights_.values().begin(), heights_.values().end());
     const auto fall = static_cast<float>(options_.fall);
+    standAtLakes();
     flood(
         [&](std::uint32_t n, std::uint32_t from) {
-          if (!kept_.empty()) standing_[n] = std::max(standing_[n], standing_[from]);
+          if (!standing_.empty()) standing_[n] = std::max(standing_[n], standing_[from]);
           return level[n] = std::max(level[n], level[from] + fall);
         },
         [](std::uint32_t) {});
@@ -313,7 +432,7 @@ class Outlets {
       ++flooded;
       if (isHeld(s) || isKept(s) || (!cutOnly.empty() && cutOnly[s])) continue;
       heights_[s] += static_cast<float>(options_.fill) * (level[s] - heights_[s]);
-      if (!kept_.empty()) heights_[s] = std::max(heights_[s], std::min(standing_[s], level[s]));
+      if (!standing_.empty()) heights_[s] = std::max(heights_[s], std::min(standing_[s], level[s]));
     }
     made.flooded = static_cast<double>(flooded) / static_cast<double>(level.size());
   }
@@ -411,7 +530,7 @@ class Outlets {
   /// none where that is higher.
   std::optional<Bed> bedFrom(std::uint32_t s) const {
     Bed bed{std::max(static_cast<float>(options_.fall), leastStep())};
-    if (options_.outlets.empty()) return bed;
+    if (options_.outlets.empty() && !water_) return bed;
     int steps = 0;
     for (std::uint32_t at = s; toward_[at] != kOutlet;) {
       neighbor(at, toward_[at], at);

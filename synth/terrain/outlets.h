@@ -58,7 +58,8 @@ struct OutletsCut {
 /// is left flooded; exactly so, and so in O(n log n).
 ///
 /// Bodies of water (may be null) stay flat: the sea takes all water, and each lake gets one outlet,
-/// which begins at its level.
+/// which begins at its level. Lakes that would run up into the next one come to one level with it,
+/// and shores come down with water that does.
 OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,
                       const OutletOptions& options = {}, const WaterBodies* water = nullptr,
                       const Progress& progress = {});

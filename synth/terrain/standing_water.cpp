@@ -44,6 +44,56 @@ std::vector<std::size_t> connected(int width, int height, std::size_t from,
   return found;
 }
 
+/// What each sample comes from, by most of nine: shores without single samples.
+Grid<std::uint8_t> wetSamples(const Grid<HeightOrigin>& origins,
+                              std::span<const Grid<std::uint8_t>> water,
+                              const Grid<std::uint8_t>& held) {
+  const int width = origins.width(), height = origins.height();
+  Grid<std::uint8_t> kinds(width, height), wet(width, height);
+  const auto isFree = [&](std::size_t s) { return held.empty() || !held[s]; };
+  for (std::size_t s = 0; s < kinds.count(); ++s)
+    kinds[s] = isFree(s) ? water[origins[s].example](origins[s].x, origins[s].y) : kLand;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      int lake = 0, sea = 0, all = 0;
+      for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v) {
+        for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u) {
+          lake += kinds(u, v) == kLake;
+          sea += kinds(u, v) == kSea;
+          ++all;
+        }
+      }
+      if (2 * (lake + sea) > all && isFree(wet.index(x, y))) wet(x, y) = sea > lake ? kSea : kLake;
+    }
+  }
+  return wet;
+}
+
+/// The sea: what comes from it or lies as low, where that comes to the border. Nothing else lies
+/// under its level.
+void settleSea(Grid<float>& heights, const Grid<std::uint8_t>& wet, float level,
+               const Grid<std::uint8_t>& held, std::size_t least, bool inland,
+               WaterBodies& settled) {
+  const int width = heights.width(), height = heights.height();
+  const auto isLow = [&](std::size_t s) {
+    return wet[s] == kSea || (heights[s] <= level && (held.empty() || !held[s]));
+  };
+  const auto isBorder = [&](std::size_t s) {
+    const int x = static_cast<int>(s) % width, y = static_cast<int>(s) / width;
+    return x == 0 || y == 0 || x + 1 == width || y + 1 == height;
+  };
+  std::vector<std::uint8_t> seen(heights.count());
+  for (std::size_t s = 0; s < heights.count(); ++s) {
+    if (seen[s] || !isLow(s)) continue;
+    const std::vector<std::size_t> body = connected(width, height, s, seen, isLow);
+    const bool isSea = body.size() >= least && (inland || std::ranges::any_of(body, isBorder));
+    for (const std::size_t n : body) {
+      if (isSea) settled.bodies[n] = kSeaBody;
+      heights[n] = isSea ? level : std::max(heights[n], level);
+    }
+  }
+}
+
 /// Adds the connected hollows of a map that says which share of each sample lies in one: how many
 /// samples of the finest resolution those of each size cover.
 void addHollows(const Grid<float>& covered, double samples, Hollows& hollows) {
@@ -126,55 +176,27 @@ Grid<std::uint8_t> halvedWater(const Grid<std::uint8_t>& water) {
 WaterBodies settleWater(Grid<float>& heights, const Grid<HeightOrigin>& origins,
                         std::span<const Grid<std::uint8_t>> water,
                         const std::optional<float>& seaLevel, const Grid<std::uint8_t>& held,
-                        std::size_t least) {
+                        std::size_t least, bool inland) {
   const int width = heights.width(), height = heights.height();
-  Grid<std::uint8_t> kinds(width, height), wet(width, height);
-  for (std::size_t s = 0; s < kinds.count(); ++s) {
-    const bool free = held.empty() || !held[s];
-    kinds[s] = free ? water[origins[s].example](origins[s].x, origins[s].y) : kLand;
-  }
-  // Most of nine: shores without single samples.
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      int count = 0, all = 0;
-      for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v) {
-        for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u) {
-          count += kinds(u, v) != kLand;
-          ++all;
-        }
-      }
-      wet(x, y) = 2 * count > all && (held.empty() || !held(x, y));
-    }
-  }
-  WaterBodies settled{Grid<std::uint32_t>(width, height)};
+  const Grid<std::uint8_t> wet = wetSamples(origins, water, held);
+  WaterBodies settled{Grid<std::uint32_t>(width, height), kFirstLake, heights};
+  if (seaLevel) settleSea(heights, wet, *seaLevel, held, least, inland, settled);
   std::vector<std::uint8_t> seen(heights.count());
   for (std::size_t s = 0; s < heights.count(); ++s) {
-    if (seen[s] || !wet[s]) continue;
-    const std::vector<std::size_t> body =
-        connected(width, height, s, seen, [&](std::size_t n) { return wet[n] != 0; });
+    const auto isLake = [&](std::size_t n) { return wet[n] != kLand && settled.bodies[n] == 0; };
+    if (seen[s] || !isLake(s)) continue;
+    const std::vector<std::size_t> body = connected(width, height, s, seen, isLake);
     if (body.size() < least) continue;
     std::vector<float> levels;
-    std::size_t sea = 0;
-    for (const std::size_t n : body) {
-      levels.push_back(heights[n]);
-      sea += kinds[n] == kSea;
-    }
-    const bool isSea = seaLevel && 2 * sea > body.size();
+    for (const std::size_t n : body) levels.push_back(heights[n]);
     const auto at = static_cast<std::ptrdiff_t>(kLevel * static_cast<double>(levels.size() - 1));
     std::nth_element(levels.begin(), levels.begin() + at, levels.end());
-    const float level = isSea ? *seaLevel : levels[static_cast<std::size_t>(at)];
-    const std::uint32_t number = isSea ? kSeaBody : settled.count++;
+    const float level = levels[static_cast<std::size_t>(at)];
     for (const std::size_t n : body) {
       heights[n] = level;
-      settled.bodies[n] = number;
+      settled.bodies[n] = settled.count;
     }
-  }
-  if (seaLevel) {
-    for (std::size_t s = 0; s < heights.count(); ++s) {
-      if ((!held.empty() && held[s]) || heights[s] > *seaLevel) continue;
-      heights[s] = *seaLevel;
-      settled.bodies[s] = kSeaBody;
-    }
+    ++settled.count;
   }
   return settled;
 }

@@ -31,15 +31,17 @@ inline constexpr std::uint32_t kSeaBody = 1, kFirstLake = 2;
 struct WaterBodies {
   Grid<std::uint32_t> bodies;
   std::uint32_t count = kFirstLake;  ///< one more than the largest number
+  Grid<float> before;                ///< the heights before they were settled
 };
 /// Makes flat what comes from water: lakes at a height that most of them reach, the sea at
-/// `seaLevel`, under which no land lies either. Bodies of less than `least` samples become land,
-/// and so do single samples at shores. Samples that are `held` (may be empty) stay as they are and
-/// are land.
+/// `seaLevel`, under which no land lies either. The sea comes to the map's border, or is where it
+/// lies, if it may be `inland`, as on a torus; other sea is lakes. Bodies of less than `least`
+/// samples become land, and so do single samples at shores. Samples that are `held` (may be empty)
+/// stay as they are and are land.
 WaterBodies settleWater(Grid<float>& heights, const Grid<HeightOrigin>& origins,
                         std::span<const Grid<std::uint8_t>> water,
                         const std::optional<float>& seaLevel, const Grid<std::uint8_t>& held,
-                        std::size_t least);
+                        std::size_t least, bool inland = false);
 
 /// The hollows of height maps, of which a result keeps as many.
 struct Hollows {

@@ -58,7 +58,7 @@ void forRows(int height, const Body& body) {
 
 /// What is known of the result on a resolution.
 struct LevelControl {
-  Grid<float> guide, given, hold;
+  Grid<float> guide, guideWeight, given, hold;
   Grid<std::uint8_t> held;     ///< 1 where nothing changes
   Grid<std::uint8_t> outlets;  ///< 1 where water leaves; empty: at the border
 };
@@ -129,6 +129,8 @@ class Synthesis {
       const Pixel size = sizeAt(l);
       if (!given.guide.empty() && l >= guideLevel_)
         control.guide = stretched(given.guide, size.x, size.y);
+      if (!given.guideWeight.empty() && l >= guideLevel_)
+        control.guideWeight = stretched(given.guideWeight, size.x, size.y);
       if (!given.outlets.empty())
         control.outlets =
             l == 0 ? given.outlets : anyOf(controls_[static_cast<std::size_t>(l - 1)].outlets);
@@ -265,7 +267,8 @@ class Synthesis {
   /// votes draw them together.
   void spread(const HeightLevel& level, Grid<float>& heights) const {
     // What is known of the result has heights of its own.
-    if (guided_ || !options_.control.hold.empty()) return;
+    const bool guidedEverywhere = guided_ && options_.control.guideWeight.empty();
+    if (guidedEverywhere || !options_.control.hold.empty()) return;
     std::vector<float> wanted;
     for (std::size_t e = 0; e < examples_; ++e) {
       std::ranges::copy_if(level.sources[e].heights.values(), std::back_inserter(wanted),
@@ -293,7 +296,8 @@ class Synthesis {
   WaterBodies settled(int l, Grid<float>& heights, const Grid<HeightOrigin>& origins) const {
     return settleWater(heights, origins, pyramid_[static_cast<std::size_t>(l)].water, seaLevel_,
                        controls_[static_cast<std::size_t>(l)].held,
-                       std::max<std::size_t>(4, kLeastLake >> (2 * l)));
+                       std::max<std::size_t>(4, kLeastLake >> (2 * l)),
+                       (options_.wrapsX && options_.wrapsY) || !options_.control.outlets.empty());
   }
 
   void match(HeightField& field, const HeightLevel& level, int l, int round,
@@ -414,10 +418,12 @@ class Synthesis {
       for (int n = l; n < guideLevel_; ++n)
         means.push_back(coarser(n == l ? heights : means.back()));
       const Grid<float>& at = means.empty() ? heights : means.back();
-      const Grid<float>& guide =
-          controls_[static_cast<std::size_t>(std::max(l, guideLevel_))].guide;
+      const LevelControl& guided = controls_[static_cast<std::size_t>(std::max(l, guideLevel_))];
       Grid<float> change(at.width(), at.height());
-      for (std::size_t s = 0; s < change.count(); ++s) change[s] = follow * (guide[s] - at[s]);
+      for (std::size_t s = 0; s < change.count(); ++s) {
+        const float weight = guided.guideWeight.empty() ? 1 : guided.guideWeight[s];
+        change[s] = follow * weight * (guided.guide[s] - at[s]);
+      }
       for (int n = guideLevel_ - 1; n >= l; --n) {
         const Pixel size = sizeAt(n);
         Grid<float> finer(size.x, size.y);

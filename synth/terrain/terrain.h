@@ -32,6 +32,8 @@ inline constexpr int kLeastTerrain = 16;
 struct TerrainControl {
   /// Heights that the result should roughly have, stretched over it; of any size, finite.
   Grid<float> guide;
+  /// How much of `follow` counts where, 0 (the land is free) to 1; of the guide's size. Empty: all.
+  Grid<float> guideWeight;
   /// How strictly they are followed: 0 (not) to 1.
   double follow = 0.8;
   /// Which resolution's heights the guide is, 0 the finest: what is finer is the example's.

