@@ -105,6 +105,25 @@ TEST(LooseParts, AreNotFoundWherePartsHangTogether) {
   EXPECT_FALSE(strewParts(constant({12, 12, 12}, -1), {{12, 12, 12}, 0}));
 }
 
+TEST(LooseParts, AreNotTheRingsOfAChain) {
+  // Rings that go through each other, by turns flat and upright; moved apart, they are loose.
+  const auto chain = [](double apart) {
+    DistanceField field = constant({84, 28, 28}, 0);
+    forEachCell(field.size(), [&](const Vec3i& p) {
+      double d = 100;
+      for (int n = 0; n < 4; ++n) {
+        const double x = p.x - 12 - apart * n, y = p.y - 13.5, z = p.z - 13.5;
+        const double across = n % 2 == 0 ? y : z, along = n % 2 == 0 ? z : y;
+        d = std::min(d, std::hypot(std::hypot(x, across) - 7, along) - 1.5);
+      }
+      field.values[p] = static_cast<float>(d);
+    });
+    return field;
+  };
+  EXPECT_FALSE(strewParts(chain(10), {{84, 28, 28}, 0}));
+  EXPECT_TRUE(strewParts(chain(20), {{84, 28, 28}, 0}));
+}
+
 TEST(LooseParts, AreWhatObjectsOfThemAreMadeOf) {
   const DistanceField example = stones();
   const ObjectResult made = synthesizeObject(example, {.size = {96, 44, 18}});
@@ -123,9 +142,11 @@ TEST(LooseParts, AreTheSameAtAnyNumberOfThreads) {
 }
 
 TEST(LooseParts, MayFindNoRoomAndStopWhenAsked) {
-  const auto narrow = strewParts(stones(), {{6, 6, 6}, 0});
-  ASSERT_TRUE(narrow);
-  EXPECT_EQ(narrow->parts, 0);
+  for (const Vec3i& size : {Vec3i{6, 6, 6}, Vec3i{200, 3, 200}}) {
+    const auto narrow = strewParts(stones(), {size, 0});
+    ASSERT_TRUE(narrow);
+    EXPECT_EQ(narrow->parts, 0);
+  }
   CancelAfter cancel(1, "strewing");
   EXPECT_THROW(strewParts(stones(), {{96, 88, 18}, 0}, cancel.progress()), Cancelled);
 }

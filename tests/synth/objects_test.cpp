@@ -164,6 +164,10 @@ TEST(ObjectKind, IsByFacesEdgesAndThickness) {
   EXPECT_EQ(objectKind(boulder()), ObjectKind::Lump);
   EXPECT_EQ(objectKind(pebble()), ObjectKind::Lump);
   EXPECT_EQ(objectKind(tree()), ObjectKind::Limbs);
+  // Where distances are clamped, limbs cannot be known from lumps.
+  DistanceField clamped = tree();
+  for (float& v : clamped.values.values()) v = std::max(v, -2.0F);
+  EXPECT_EQ(objectKind(clamped), ObjectKind::Lump);
   // Turned about the vertical, what has edges still has them.
   const DistanceField turned = sampled({64, 64, 20}, [](const Vec3d& p) {
     const Vec3d q{0.8 * (p.x - 31.5) + 0.6 * (p.y - 31.5), 0.8 * (p.y - 31.5) - 0.6 * (p.x - 31.5),

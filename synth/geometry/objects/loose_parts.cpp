@@ -24,8 +24,8 @@ constexpr float kApart = 1;
 /// Fewest parts that lie about, and the most that one of them may be of all solid.
 constexpr std::size_t kFewest = 3;
 constexpr double kLargest = 0.5;
-/// What is smaller than this share of all solid is no part of its own, and is left out.
-constexpr double kSmallest = 0.002;
+/// Parts hang in each other, as rings do, where their boxes share more than this of the smaller.
+constexpr double kEntangled = 0.1;
 /// A part brings the air around it, up to so many samples.
 constexpr int kAir = 5;
 /// How far parts are moved from their places, of the mean distance of places; how often that is
@@ -48,6 +48,20 @@ struct Parts {
   std::vector<Part> all;
   Array3D<std::uint32_t> nearest;  ///< kNone far from all
 };
+
+bool areEntangled(const std::vector<Part>& parts) {
+  for (std::size_t a = 0; a < parts.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const CellBox both{max(parts[a].box.begin, parts[b].box.begin),
+                         min(parts[a].box.end, parts[b].box.end)};
+      const std::int64_t smaller =
+          std::min(volume(parts[a].box.size()), volume(parts[b].box.size()));
+      if (static_cast<double>(volume(both.size())) > kEntangled * static_cast<double>(smaller))
+        return true;
+    }
+  }
+  return false;
+}
 
 std::optional<Parts> findParts(const DistanceField& example) {
   const Vec3i n = example.size();
@@ -72,11 +86,11 @@ std::optional<Parts> findParts(const DistanceField& example) {
     const double share =
         static_cast<double>(found[f].solid) / static_cast<double>(std::max<std::int64_t>(1, solid));
     if (share > kLargest) return std::nullopt;
-    if (found[f].solid == 0 || share < kSmallest) continue;
+    if (found[f].solid == 0) continue;
     numberOf[f] = static_cast<std::uint32_t>(parts.all.size());
     parts.all.push_back(found[f]);
   }
-  if (parts.all.size() < kFewest) return std::nullopt;
+  if (parts.all.size() < kFewest || areEntangled(parts.all)) return std::nullopt;
   parts.nearest = Array3D<std::uint32_t>(n, kNone);
   regions.forEachRun([&](const Regions::Run& run, Vec3i p) {
     if (!isNear(p)) return;
@@ -123,6 +137,7 @@ class Strewing {
   }
 
   StrewnParts run(const Progress& progress) {
+    if (slots_.empty()) return {std::move(made_), 0};
     std::vector<std::uint32_t> left;
     const std::vector<std::uint32_t> order = drawnParts();
     for (std::size_t s = 0; s < slots_.size(); ++s) {

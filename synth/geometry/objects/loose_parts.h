@@ -22,10 +22,11 @@ struct StrewnParts {
 };
 
 /// Where an example is made of loose parts (stones that lie about, three or more of them, each
-/// smaller than half of all, with at least two samples of air around it), a result of such parts,
-/// each whole and each as often as the others: its places are the example's, laid side by side,
-/// moved about by up to a quarter of their distance, with parts drawn anew for them. Along z parts
-/// stay on the ground of their places. No two touch. Nothing for other examples.
+/// smaller than half of all, with at least two samples of air around it, none in another as rings
+/// of a chain are), a result of such parts, each whole and each as often as the others: its places
+/// are the example's, laid side by side, moved about by up to a quarter of their distance, with
+/// parts drawn anew for them. Along z parts stay on the ground of their places. No two touch.
+/// Nothing for other examples.
 ///
 /// There is as much solid as in the example, for the size of its box, as nearly as whole parts
 /// allow, unless they find no room. O(samples of the result, and parts x their volume). Each sample

@@ -46,6 +46,19 @@ std::size_t facingOf(const Vec3f& direction) {
   return field * 3 + static_cast<std::size_t>(longest);
 }
 
+/// Whether distances inside are clamped: nowhere else are a sample and all of its neighbors as
+/// deep.
+bool isClamped(const Array3D<float>& values, float deepest) {
+  bool clamped = false;
+  forEachCell(values.size(), [&](const Vec3i& p) {
+    if (clamped || values[p] > -0.999F * deepest) return;
+    clamped = std::ranges::all_of(kFaceSteps, [&](const Vec3i& d) {
+      return values.contains(p + d) && values[p + d] <= -0.999F * deepest;
+    });
+  });
+  return clamped;
+}
+
 }  // namespace
 
 ObjectKind objectKind(const DistanceField& example) {
@@ -77,7 +90,9 @@ ObjectKind objectKind(const DistanceField& example) {
   const auto share = [&](std::int64_t of) {
     return static_cast<double>(of) / static_cast<double>(std::max<std::int64_t>(1, surface));
   };
-  const double thick = deepest / voxel / std::max({n.x, n.y, n.z});
+  // Of clamped distances no medial axis can be found.
+  const double thick =
+      deepest > 0 && isClamped(values, deepest) ? 1 : deepest / voxel / std::max({n.x, n.y, n.z});
   if (share(planes) > kPlanes || (thick <= kThin && share(edges) > kEdges))
     return ObjectKind::Planes;
   return thick > kThin ? ObjectKind::Lump : ObjectKind::Limbs;

@@ -15,7 +15,8 @@ enum class ObjectKind {
 };
 
 /// By how much of the surface faces the commonest directions, how much of it is edges, and how
-/// thick the object is where it is thickest. O(samples).
+/// thick the object is where it is thickest; where distances inside are clamped that is unknown,
+/// and taken as thick. O(samples).
 ObjectKind objectKind(const DistanceField& example);
 
 }  // namespace exemplar

@@ -4,8 +4,10 @@
 #include "synth/geometry/objects/stretched_object.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <utility>
 
 #include "core/cells.h"
@@ -23,6 +25,9 @@ constexpr int kHalvings = 7;
 /// share of the way: across a face it would be 1, at a square edge it is 0.7.
 constexpr int kBallReach = 2;
 constexpr double kCovers = 0.93;
+/// Balls are this share of their radius apart: stretched to twice that, the surface between two of
+/// them is within 1.5 % of it.
+constexpr double kApart = 1.0 / 6;
 /// Distances are known up to here, voxels.
 constexpr float kFar = 6;
 
@@ -92,6 +97,18 @@ double stretchedShare(const Array3D<float>& example, const AxisPlaces& places) {
   return static_cast<double>(solid) / static_cast<double>(all);
 }
 
+/// Of large balls, which have many others near them, leaves one in each cube of a share of their
+/// radius.
+void thinOut(const DistanceField& example, Array3D<std::uint8_t>& medial) {
+  std::set<std::array<int, 4>> filled;
+  forEachCell(medial.size(), [&](const Vec3i& p) {
+    if (!medial[p]) return;
+    const int side = static_cast<int>(-example.values[p] / example.voxelSize * kApart);
+    if (side < 2) return;
+    medial[p] = filled.insert({side, p.x / side, p.y / side, p.z / side}).second;
+  });
+}
+
 /// The balls of an object's medial axis, and those halfway between neighbors, so that there are no
 /// gaps where they move apart.
 std::vector<Ball> medialBalls(const DistanceField& example, const AxisPlaces& places) {
@@ -110,6 +127,7 @@ std::vector<Ball> medialBalls(const DistanceField& example, const AxisPlaces& pl
     });
     medial[p] = !covered;
   });
+  thinOut(example, medial);
   std::vector<Ball> balls;
   const auto add = [&](const Vec3d& from, double radius) {
     Ball ball{from, {}, radius};
