@@ -6,8 +6,8 @@ title=exemplar${subcommand:+-$subcommand}
 # A program of the page's name, whose help is the subcommand's.
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-printf '#!/bin/sh\n[ "$1" = --version ] && { echo "exemplar %s"; exit; }\nexec "%s" %s --help-all\n' \
-  "$version" "$program" "$subcommand" > "$folder/$title"
+printf '#!/bin/sh\n[ "$1" = --version ] && { echo "%s %s"; exit; }\nexec "%s" %s --help-all\n' \
+  "$title" "$version" "$program" "$subcommand" > "$folder/$title"
 chmod +x "$folder/$title"
 if [ -n "$subcommand" ]; then
   # The description, which may be two lines.
