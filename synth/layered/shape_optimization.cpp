@@ -179,15 +179,19 @@ std::optional<Vec3i> tooDeep(const Array3D<float>& depths, float deepest, bool i
 /// Where a shape, or what is around it, is deeper than it ever is in the example: begins a
 /// component of the other side there, as large as the example's smallest, if that fits and there
 /// may be more of them. Patches say nothing of what lies farther from a boundary than they reach.
-/// Flat shapes only: in space, where few levels have room for a patch, balls fuse by it.
-void breakUpDepths(Shape& shape, const ShapeExample& example, const ShapeLimits& limits) {
+/// Only what a patch sees whole, on resolutions where that is so: what is larger would stay the
+/// ball that it began as. Flat shapes only: in space, where few levels have room for a patch, balls
+/// fuse.
+void breakUpDepths(Shape& shape, const ShapeExample& example, const ShapeLimits& limits,
+                   int patch) {
   if (shape.size().z > 1) return;
   constexpr float kRounding = 1;             // of where cells' centers lie, in the example and here
   for (const bool inside : {true, false}) {  // the side that is begun
     const ShapeExample::Components& begun = inside ? example.inside : example.outside;
     const float deepest = (inside ? example.outside : example.inside).deepest + kRounding;
     const float radius = radiusOf(begun.smallest, shape.size().z == 1);
-    if (!std::isfinite(deepest) || radius >= deepest) continue;
+    if (!std::isfinite(deepest) || radius >= deepest || 2 * radius > static_cast<float>(patch))
+      continue;
     const std::size_t most = begun.mostIn(shape.count());
     for (std::size_t count = componentSizes(shape, inside, true).size(); count < most; ++count) {
       const Array3D<float> depths = distanceTo(inside ? shape : outsideOf(shape), true);
@@ -415,7 +419,7 @@ OptimizedShape optimizeShape(Shape start, const ShapeExample& example, const Sha
     part.report("matching boundaries", 0);
     const Random draws = random.fork(static_cast<std::uint64_t>(n));
     if (!limits.target && options.certainty == CertaintyKind::Boundary)
-      breakUpDepths(shape, example, limits);
+      breakUpDepths(shape, example, limits, options.patch);
     PlacedPatches placed;
     placed.boundary = matchedCenters(boundaryOf(shape, true), size);
     if (limits.open) keepNearOpen(placed.boundary, *limits.open, options.patch);

@@ -114,6 +114,7 @@ TEST(LayeredCommand, FillsTheWhiteOfAPictureAndNothingElse) {
   }
   const auto run = runExemplar(synth + "--inpaint hole.png", folder.path());
   ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err.find("has grays"), std::string::npos) << run.err;
   const Image8 was = decodeImage(readFile(folder / "e.png"), "e.png");
   const Image8 is = decodeImage(readFile(folder / "o.png"), "o.png");
   ASSERT_EQ(is.width, 48);
@@ -200,6 +201,63 @@ TEST(LayeredCommand, DropsOpacityAndSaysSoAndKeepsSixteenBits) {
   const std::set<std::uint16_t> known(deep.pixels.begin(), deep.pixels.end());
   const auto made = decodePng16(readFile(folder / "c.png"), "c.png");
   for (const std::uint16_t value : made.pixels) ASSERT_TRUE(known.contains(value)) << value;
+}
+
+/// A picture of 24 x 24 pixels of two bits, whose four colors are in a palette.
+const char* const kPalette =
+    "89504e470d0a1a0a0000000d49484452000000180000001802030000009d19d56b0000000c504c54451e503c"
+    "26543cc85a3cc05640ab825e7d000000234944415478da631094de0d440c0c5cab40081f6ff74641206258b5"
+    "0084f0f2686026002ce434990c85c3180000000049454e44ae426082";
+constexpr std::uint8_t kPaletteColors[4][3] = {
+    {30, 80, 60}, {38, 84, 60}, {200, 90, 60}, {192, 86, 64}};
+
+TEST(LayeredCommand, TakesPalettesAsTheirColors) {
+  const TestFolder folder;
+  std::string bytes;
+  for (const char* digit = kPalette; *digit != 0; digit += 2)
+    bytes.push_back(static_cast<char>(std::stoi(std::string(digit, 2), nullptr, 16)));
+  writeFile(folder / "palette.png", bytes);
+  Image8 plain{24, 24, 3, {}};
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 24; ++x)
+      for (const std::uint8_t c : kPaletteColors[(x / 6 + y / 6) % 2 * 2 + (x * y + x) % 2])
+        plain.pixels.push_back(c);
+  writePng(folder / "plain.png", plain);
+  for (const std::string name : {"palette", "plain"}) {
+    const auto run = runExemplar("synth " + name +
+                                     ".png --engine layered --layers 2 --neighborhood 5 "
+                                     "--texture-rounds 1 --size 24,24,1 -o " +
+                                     name + "_more.png",
+                                 folder.path());
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err.find("warning"), std::string::npos) << run.err;  // nothing is lost
+  }
+  EXPECT_EQ(readFile(folder / "palette_more.png"), readFile(folder / "plain_more.png"));
+}
+
+TEST(LayeredCommand, RefusesMasksAndLayerMapsThatAreClearSomewhere) {
+  const TestFolder folder;
+  writePictures(folder);
+  const auto clear = [&](const char* name, int width, int height) {
+    Image8 image{width, height, 2, {}};
+    for (int p = 0; p < width * height; ++p) {
+      image.pixels.push_back(p % 7 < 3 ? 255 : 0);
+      image.pixels.push_back(p % 5 == 0 ? 0 : 255);
+    }
+    writePng(folder / name, image);
+  };
+  clear("c.png", 48, 40);
+  clear("p.png", 64, 56);
+  const std::string synth = "synth e.png --engine layered --layers 2 --neighborhood 5 -o o.png ";
+  for (const auto& [arguments, says] :
+       {std::pair{"--inpaint c.png", "c.png: is clear in places"},
+        {"--layers-from c.png", "c.png: is clear in places"},
+        {"--size 64,56,1 --paint p.png", "p.png: is clear in places"}}) {
+    const auto run = runExemplar(synth + arguments, folder.path());
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(says));
+  }
+  EXPECT_EQ(folder.files(), "c.png e.png h.png p.png");
 }
 
 TEST(LayeredCommand, MakesVolumesOfLabels) {
