@@ -52,8 +52,8 @@ struct OutletsCut {
 /// not 0 stay, and so may what lies behind them. NaN samples are outlets. O(samples), one thread,
 /// 10 bytes a sample. Throws `Cancelled`.
 ///
-/// With `outlets`, water leaves there alone. What lies below all ways to them is lifted, a hollow of
-/// which some is held is cut and not filled, and where the lowest way leads up over what is held
+/// With `outlets`, water leaves there alone. What lies below all ways to them is lifted, a hollow
+/// of which some is held is cut and not filled, and where the lowest way leads up over what is held
 /// another one is cut through what is not. If there was such a way for every held sample, nothing
 /// is left flooded; exactly so, and so in O(n log n).
 ///
