@@ -244,21 +244,36 @@ TEST(KeptPlaces, WhatDoesNotDockIsLeftToVoting) {
   EXPECT_EQ(result.made.field.values.count(), 0u);
 }
 
+struct Voted {
+  KeptPlaces places;
+  SynthesisResult result;
+};
+/// A result of a size, by voting, around a part of the example that is kept.
+Voted votedAround(const DistanceField& example, const Where& part, const Vec3i& size) {
+  Voted made{placeKept(example, maskOf(example.size(), part), size, {}), {}};
+  VotingOptions options;
+  options.size = size;
+  options.rounds = 3;
+  options.kept = made.places.kept;
+  options.keptOffsets = made.places.offsets;
+  made.result = synthesizeByVoting(example, options);
+  return made;
+}
+/// Where in the example a kept sample is from.
+Vec3i keptFrom(const KeptPlaces& places, const Vec3i& p) {
+  return places.offsets.empty() ? p : p - places.offsets[places.kept[p] - 1U];
+}
+
 TEST(KeptPlaces, VotingGoesOnFromEitherSideAlike) {
   // Ground that is cut at its sides, kept at one of them: it stays to the bit at its own end.
   const DistanceField example = ground({40, 40, 28}, 6);
-  const Vec3i n = example.size();
   const auto made = [&](const Where& part, const Vec3i& size = {72, 40, 28}) {
-    const KeptPlaces places = placeKept(example, maskOf(n, part), size, {});
-    VotingOptions options;
-    options.size = size;
-    options.rounds = 3;
-    options.kept = places.kept;
-    options.keptOffsets = places.offsets;
-    const SynthesisResult result = synthesizeByVoting(example, options);
+    const Voted voted = votedAround(example, part, size);
+    const KeptPlaces& places = voted.places;
+    const SynthesisResult& result = voted.result;
     forEachCell(size, [&](const Vec3i& p) {
       if (!places.kept[p]) return;
-      const Vec3i from = places.offsets.empty() ? p : p - places.offsets[places.kept[p] - 1U];
+      const Vec3i from = keptFrom(places, p);
       ASSERT_EQ(result.field.values[p], example.values[from]);
       ASSERT_EQ(result.origins[p].cell(), from);
     });
@@ -280,20 +295,15 @@ TEST(KeptPlaces, GroundStaysAtTheTopOrTheBottomThatIsKept) {
   const Where parts[] = {[](const Vec3i& p) { return p.z < 8; },
                          [](const Vec3i& p) { return p.z >= 8; }};
   for (const Where& part : parts) {
-    const KeptPlaces places = placeKept(example, maskOf(n, part), size, {});
-    VotingOptions options;
-    options.size = size;
-    options.rounds = 3;
-    options.kept = places.kept;
-    options.keptOffsets = places.offsets;
-    const SynthesisResult result = synthesizeByVoting(example, options);
+    const Voted made = votedAround(example, part, size);
+    const KeptPlaces& places = made.places;
     const bool below = part({0, 0, 0});
     int kept = 0;
     forEachCell(size, [&](const Vec3i& p) {
       if (!places.kept[p]) return;
       ++kept;
-      const Vec3i from = places.offsets.empty() ? p : p - places.offsets[places.kept[p] - 1U];
-      ASSERT_EQ(result.field.values[p], example.values[from]);
+      const Vec3i from = keptFrom(places, p);
+      ASSERT_EQ(made.result.field.values[p], example.values[from]);
       // The lower part is the result's lowest, the upper one its highest.
       ASSERT_EQ(p.z - from.z, below ? 0 : size.z - n.z);
     });
