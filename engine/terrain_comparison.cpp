@@ -224,6 +224,30 @@ std::vector<HeightMap> finishSeeds(std::vector<Seeds>& made, const HeightMap& ex
   return firsts;
 }
 
+/// What the report says before any run: the example, what figures mean, how to read them.
+Json headOf(const Comparison& comparison, const ComparisonOptions& options) {
+  const Example& example = comparison.example();
+  const HeightMap& heights = example.heights();
+  Json report = pageHead("comparison", example.name(), example.description, options.picture);
+  report["example"]["samples"] = {heights.width(), heights.height(), 1};
+  report["voxel_size"] = heights.cellSize;
+  report["scale"] = toJson(comparison.scale());
+  report["notes"] = {
+      "Measured as terrain, by heights alone; pictures show the example beside the result at one "
+      "scale, lit from the northwest and the northeast, with the streams that 200 cells drain "
+      "into.",
+      "terrain works on the heights, layered on a picture of them.",
+      "Engines on distances work on a volume of the example and are measured at its resolution, "
+      "against the example at that resolution (`resolution`).",
+      "seconds are of synthesis alone, on all cores in use."};
+  report["figures"] = Json::array();
+  for (const Figure& figure : figures(TerrainLikeness{})) {
+    report["figures"].push_back(
+        {{"group", figure.group}, {"key", figure.key}, {"meaning", figure.meaning}});
+  }
+  return report;
+}
+
 }  // namespace
 
 void compareTerrain(const Source& source, const ReadOptions& reading,
@@ -252,24 +276,7 @@ void compareTerrain(const Source& source, const ReadOptions& reading,
 
   ReportPage page;
   page.addPicture("example", ofExample);
-  Json report =
-      pageHead("comparison", source.name(), comparison.example().description, options.picture);
-  report["example"]["samples"] = {example.width(), example.height(), 1};
-  report["voxel_size"] = example.cellSize;
-  report["scale"] = toJson(comparison.scale());
-  report["notes"] = {
-      "Measured as terrain, by heights alone; pictures show the example beside the result at one "
-      "scale, lit from the northwest and the northeast, with the streams that 200 cells drain "
-      "into.",
-      "terrain works on the heights, layered on a picture of them.",
-      "Engines on distances work on a volume of the example and are measured at its resolution, "
-      "against the example at that resolution (`resolution`).",
-      "seconds are of synthesis alone, on all cores in use."};
-  report["figures"] = Json::array();
-  for (const Figure& figure : figures(TerrainLikeness{})) {
-    report["figures"].push_back(
-        {{"group", figure.group}, {"key", figure.key}, {"meaning", figure.meaning}});
-  }
+  Json report = headOf(comparison, options);
   std::vector<Seeds> made;
   for (const ComparedEngine& compared : options.engines)
     made.push_back({compared.name, {}, {}, {}});

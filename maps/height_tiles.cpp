@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include "core/memory.h"
 
 namespace exemplar {
 namespace {
@@ -114,6 +117,10 @@ HeightMap joinedTiles(std::span<const HeightMap> tiles) {
     width = std::max(width, cells(tile).east());
     height = std::max(height, cells(tile).north());
   }
+  requireMemory(double{sizeof(float)} * width * height,
+                "a map of " + std::to_string(width) + " x " + std::to_string(height) +
+                    " points around all tiles",
+                "give fewer of them");
   joined.corner = corner;
   joined.heights = Grid<float>(width, height, std::numeric_limits<float>::quiet_NaN());
   for (const HeightMap& tile : tiles) {

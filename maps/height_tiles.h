@@ -32,7 +32,8 @@ struct TilePlace {
 TilePlace placeOf(const HeightMap& map, const HeightMap& beside);
 
 /// The map of tiles that lie on one grid of cells (each `Fits` another one): over their bounding
-/// box, without data where no tile lies. Where tiles overlap the first one's heights count.
+/// box, without data where no tile lies. Where tiles overlap the first one's heights count. Throws
+/// `InputError` where that would not fit in memory, as of tiles along a diagonal.
 HeightMap joinedTiles(std::span<const HeightMap> tiles);
 
 }  // namespace exemplar

@@ -22,10 +22,9 @@ namespace exemplar {
 ///
 /// The sum of `capacities` is the number of rows. O(rows x columns x log(rows x largest cost)) in
 /// practice; in the worst case rows x columns x largest cost / ε. Memory: that of `costs`, and
-/// O(rows
-/// + columns). One thread, so that the result is the same at any number. Returns nothing where
-/// prices grow beyond 32 bits, which costs of boundary patches have never made them do. Throws
-/// `Cancelled`.
+/// O(rows + columns). One thread, so that the result is the same at any number. Returns nothing
+/// where prices grow beyond 32 bits, which costs of boundary patches have never made them do.
+/// Throws `Cancelled`.
 std::optional<std::vector<std::uint32_t>> assignByAuction(const Grid<std::uint16_t>& costs,
                                                           std::span<const std::uint32_t> capacities,
                                                           const Progress& progress = {});

@@ -221,8 +221,8 @@ std::vector<Adjustment> adjustmentsFor(const ShapeOptions& options, float median
     for (const int smoothings : {0, 1}) all.push_back({kThresholds[n] * median, smoothings});
   // Where patches disagree the boundary is too long even so.
   for (std::size_t n = 0; n < kThresholds.size(); n += flat ? 3 : 6)
-    for (const int smoothings : {2, 3})
-      all.push_back({kThresholds[n] * median, flat ? 2 * smoothings - 3 : smoothings, flat});
+    for (const int smoothings : flat ? std::array{1, 3} : std::array{2, 3})
+      all.push_back({kThresholds[n] * median, smoothings, flat});
   return all;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "tests/maps/made_maps.h"
 
 namespace exemplar {
@@ -79,6 +80,13 @@ TEST(HeightTiles, JoinedAreTheMapThatTheyArePartsOf) {
       ASSERT_EQ(std::isnan(cornerless.at(x, y)), missing) << x << " " << y;
     }
   }
+}
+
+TEST(HeightTiles, WithTooMuchBetweenThemAreRefused) {
+  HeightMap far = tile(0, 0, 32, 30);
+  far.corner = MapCorner{1000 + 1e6 * kCell, 2000 + 1e6 * kCell};
+  const HeightMap tiles[] = {tile(0, 0, 32, 30), far};
+  EXPECT_THROW(joinedTiles(tiles), InputError);
 }
 
 }  // namespace

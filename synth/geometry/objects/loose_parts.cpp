@@ -52,8 +52,7 @@ struct Parts {
 bool areEntangled(const std::vector<Part>& parts) {
   for (std::size_t a = 0; a < parts.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const CellBox both{max(parts[a].box.begin, parts[b].box.begin),
-                         min(parts[a].box.end, parts[b].box.end)};
+      const CellBox both = parts[a].box & parts[b].box;
       const std::int64_t smaller =
           std::min(volume(parts[a].box.size()), volume(parts[b].box.size()));
       if (static_cast<double>(volume(both.size())) > kEntangled * static_cast<double>(smaller))
