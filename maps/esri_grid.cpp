@@ -51,7 +51,7 @@ class AscReader {
     if (!word.empty())
       words_.fail("has more than " + std::to_string(*columns_) + " x " + std::to_string(*rows_) +
                   " heights");
-    noteHoles();
+    warnOfAssumedHoles(source_, assumed_);
     if (source_.options.heightScale) {
       for (float& h : map_.heights.values())
         h = static_cast<float>(h * *source_.options.heightScale);
@@ -111,11 +111,7 @@ class AscReader {
       const double rounding = (std::abs(noData_) < 1e30 ? 1e-6 : 1e-5) * std::abs(noData_);
       return std::abs(h - noData_) <= rounding;
     }
-    // Esri's own default, and what others use; a float's largest number.
-    for (const double usual : {-9999.0, -99999.0, -32768.0, -32767.0}) {
-      if (h == usual) return true;
-    }
-    return std::abs(h) >= 3.4e38 && std::abs(h) < 3.41e38;
+    return isUsualNoData(h);
   }
 
   void readHeight(std::size_t p, std::string_view word) {
@@ -134,12 +130,6 @@ class AscReader {
     map_.heights[p] = static_cast<float>(h);
   }
 
-  void noteHoles() {
-    if (assumed_ > 0)
-      source_.warn("taking " + counted(assumed_, "cell") +
-                   " for cells without data, which no NODATA_value announces");
-  }
-
   void setCellSize() {
     map_.cellSizeKnown = true;
     map_.cellSize = source_.options.cellSize.value_or(*cellSize_);
@@ -147,27 +137,7 @@ class AscReader {
       map_.corner = {*west_ - (westIsCenter_ ? *cellSize_ / 2 : 0),
                      *south_ - (southIsCenter_ ? *cellSize_ / 2 : 0)};
     }
-    if (source_.options.cellSize) return;
-    // No ground is ten times as high as it is wide: the heights are in another unit.
-    const std::optional<HeightRange> range = rangeOf(map_.heights);
-    const double side = (std::max(map_.width(), map_.height()) - 1) * *cellSize_;
-    if (!range || !(range->relief() > 10 * side)) return;
-    const double west = west_.value_or(0), south = south_.value_or(0);
-    const double north = south + *cellSize_ * *rows_;
-    const bool degrees = *cellSize_ <= 1 && std::abs(west) <= 360 &&
-                         std::abs(west + *cellSize_ * *columns_) <= 360 && std::abs(south) <= 90 &&
-                         north <= 90.5;
-    if (!degrees) {
-      source_.warn("its heights span " + roundedNumber(range->relief()) + " and its side is " +
-                   roundedNumber(side) +
-                   ": set `cell-size` where cells have another unit than heights");
-      return;
-    }
-    map_.cellSize = metersOfDegrees(*cellSize_, south, north);
-    map_.corner.reset();
-    source_.warn("its cells of " + roundedNumber(*cellSize_) +
-                 " degrees under heights in meters are taken as " + roundedNumber(map_.cellSize) +
-                 " m long; set `cell-size` for another length");
+    if (!source_.options.cellSize) checkCellUnit(map_, source_);
   }
 
   const HeightFile& source_;

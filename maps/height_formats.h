@@ -56,6 +56,15 @@ void writeIntegers(const std::filesystem::path& path, const HeightMap& map,
 /// `south` and `north` are latitudes.
 double metersOfDegrees(double degrees, double south, double north);
 
+/// Whether a height is what programs write for cells without data, and do not always announce:
+/// -9999 (Esri's default), -99999, -32768, -32767, or a float's largest number.
+bool isUsualNoData(double height);
+/// Warns of cells that were taken for cells without data though no NODATA value announces them.
+void warnOfAssumedHoles(const HeightFile& file, std::size_t cells);
+/// Warns where a map's cells have another unit than its heights, which span more than ten times its
+/// side then: cells that can be degrees become as many meters, and other ones stay as they are.
+void checkCellUnit(HeightMap& map, const HeightFile& file);
+
 /// Reads what is beside a file; nothing where it is not there, or is something else.
 std::optional<HeightSidecar> readSidecar(const std::filesystem::path& path);
 /// Writes it, or, where it says nothing that is not so without, removes one that is there.

@@ -93,6 +93,42 @@ double metersOfDegrees(double degrees, double south, double north) {
   return kMetersPerDegree * degrees * std::sqrt(std::max(0.01, std::cos(latitude)));
 }
 
+bool isUsualNoData(double height) {
+  for (const double usual : {-9999.0, -99999.0, -32768.0, -32767.0}) {
+    if (height == usual) return true;
+  }
+  return std::abs(height) >= 3.4e38 && std::abs(height) < 3.41e38;
+}
+
+void warnOfAssumedHoles(const HeightFile& file, std::size_t cells) {
+  if (cells == 0) return;
+  file.warn("taking " + counted(cells, "cell") +
+            " for cells without data, which no NODATA_value announces");
+}
+
+void checkCellUnit(HeightMap& map, const HeightFile& file) {
+  const double cell = map.cellSize;
+  // No ground is ten times as high as it is wide: the heights are in another unit.
+  const std::optional<HeightRange> range = rangeOf(map.heights);
+  const double side = (std::max(map.width(), map.height()) - 1) * cell;
+  if (!range || !(range->relief() > 10 * side)) return;
+  const auto [west, south] = map.corner.value_or(MapCorner{});
+  const double north = south + cell * map.height();
+  const bool degrees = cell <= 1 && std::abs(west) <= 361 &&
+                       std::abs(west + cell * map.width()) <= 361 && south >= -90.5 &&
+                       north <= 90.5;
+  if (!degrees) {
+    file.warn("its heights span " + roundedNumber(range->relief()) + " and its side is " +
+              roundedNumber(side) + ": set `cell-size` where cells have another unit than heights");
+    return;
+  }
+  map.cellSize = metersOfDegrees(cell, south, north);
+  map.corner.reset();
+  file.warn("its cells of " + roundedNumber(cell) +
+            " degrees under heights in meters are taken as " + roundedNumber(map.cellSize) +
+            " m long; set `cell-size` for another length");
+}
+
 std::string exactNumber(double value) {
   char buffer[64];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};

@@ -161,6 +161,7 @@ class TiffReader {
     } else {
       readStrips(map);
     }
+    warnOfAssumedHoles(file_, assumed_);
     place(map);
     if (layout_.format != SAMPLEFORMAT_IEEEFP && layout_.bits <= 16) {
       map.steps = HeightSteps{file_.options.heightScale.value_or(1), (1 << layout_.bits) - 1};
@@ -277,8 +278,12 @@ class TiffReader {
   }
 
   /// A float's value for NODATA may have been rounded on its way through text.
-  bool isNoData(double h) const {
-    if (!noData_) return false;
+  bool isNoData(double h) {
+    if (!noData_) {
+      const bool usual = isUsualNoData(h);
+      assumed_ += usual;
+      return usual;
+    }
     if (layout_.format != SAMPLEFORMAT_IEEEFP) return h == *noData_;
     return std::abs(h - *noData_) <= 1e-6 * std::abs(*noData_);
   }
@@ -300,7 +305,7 @@ class TiffReader {
         const double h = sample(block, at);
         if (std::isnan(h) || isNoData(h)) continue;
         if (!(std::abs(h) <= kLargestHeight)) {
-          // A float's largest number is what some write for holes without saying so.
+          // Infinite, or a float's largest number beside another value that is announced.
           if (std::abs(h) >= 3.4e38) continue;
           fail("a height is " + roundedNumber(h) + "; it must be below 1e15 in size");
         }
@@ -423,6 +428,8 @@ class TiffReader {
       file_.warn("its cells are not in meters but in the unit " + std::to_string(unit) +
                  " of EPSG; its heights are taken to be in the same one: set `cell-size` where "
                  "they are not");
+    } else {
+      checkCellUnit(map, file_);
     }
   }
 
@@ -431,6 +438,7 @@ class TiffReader {
   TIFF* tiff_ = nullptr;
   Layout layout_;
   std::optional<double> noData_;
+  std::size_t assumed_ = 0;  ///< cells without data that the file does not announce
 };
 
 constexpr TIFFFieldInfo kFields[] = {
@@ -477,7 +485,9 @@ std::string tiffBytes(const HeightMap& map, const std::string& name, const Progr
     TIFFSetField(tiff.get(), kGeoKeys, static_cast<int>(std::size(keys)), keys);
   }
   const std::optional<HeightRange> range = rangeOf(map.heights);
-  if (!range || range->holes > 0) TIFFSetField(tiff.get(), kNoDataTag, "nan");
+  // Heights that others take for holes are none where the file says what a hole is.
+  const bool saysHoles = !range || range->holes > 0 || range->low <= -9999;
+  if (saysHoles) TIFFSetField(tiff.get(), kNoDataTag, "nan");
   std::vector<float> block(static_cast<std::size_t>(rows) * width);
   for (std::uint32_t y = 0, strip = 0; y < height; y += rows, ++strip) {
     progress.report("writing", static_cast<double>(y) / height);

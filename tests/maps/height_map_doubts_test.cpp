@@ -109,6 +109,30 @@ TEST(HeightMapFile, NoDataIsKnownHoweverItIsSpelled) {
   EXPECT_EQ(readWarned("a.asc", ascGrid("NODATA_value 0\n", "0.0001")).map.heights[7], 0.0001f);
 }
 
+TEST(HeightMapFile, ATiffMayAnnounceNeitherItsHolesNorItsDegrees) {
+  std::string integers;
+  for (int p = 0; p < 12; ++p) {
+    const int h = p == 7 ? -9999 : 100 * p;
+    integers += {static_cast<char>(h & 0xff), static_cast<char>(h >> 8)};
+  }
+  TiffTags tags{.width = 4, .height = 3, .bits = 16, .format = 2};
+  tags.scale = {0.001, 0.001, 0};
+  tags.tie = {0, 0, 0, 7.5, 60.003, 0};
+  const Read read = readWarned("a.tif", tiff(tags, integers));
+  EXPECT_TRUE(std::isnan(read.map.heights[7]));
+  EXPECT_EQ(read.map.heights[8], 800);
+  EXPECT_NEAR(read.map.cellSize, 111.195 * std::sqrt(0.5), 0.01);
+  EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("taking 1 cell for cells without data"),
+                                         HasSubstr("a.tif: its cells of 0.001 degrees")));
+  // Where a file says what a hole holds, another number is a height; ours always say it then.
+  tags.noData = "-1";
+  HeightMap depths = readHeightMap(tiff(tags, integers), "a.tif", {});
+  EXPECT_EQ(depths.heights[7], -9999);
+  const TemporaryFolder folder;
+  writeHeightMap(folder / "b.tif", depths);
+  EXPECT_EQ(readHeightMap(folder / "b.tif").heights[7], -9999);
+}
+
 TEST(HeightMapFile, AMapOfOneHeightAndOneOfEightBitsAreSaid) {
   EXPECT_THAT(readWarned("a.pgm", "P2 2 2 65535 7 7 7 7").warnings,
               ElementsAre(HasSubstr("all its heights are 7")));
