@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -118,8 +119,8 @@ class TextScanner {
     return {cursor_, static_cast<std::size_t>(end - cursor_)};
   }
 
-  /// The next number; `what` is what errors call it. Too small becomes 0; "nan" and "inf" are
-  /// numbers.
+  /// The next number; `what` is what errors call it. Too small becomes 0; "nan" ("1.#QNAN",
+  /// too) and "inf" are numbers.
   double number(const char* what) {
     if (const std::optional<double> value = tryNumber()) return *value;
     double ignored = 0;
@@ -242,6 +243,12 @@ class TextScanner {
   /// What `tryNumber` gives where a word does not simply spell a number that a double can hold.
   [[gnu::noinline]] std::optional<double> tryOddNumber(const char* begin, const char* end,
                                                        std::errc error) {
+    const char* last = begin;
+    while (!endsWord(last)) ++last;
+    if (isNanWord({begin, static_cast<std::size_t>(last - begin)})) {
+      cursor_ = last;
+      return std::numeric_limits<double>::quiet_NaN();
+    }
     if (error == std::errc{}) {
       return !endsWord(end) && *end == ',' ? tryCommaNumber(begin, end) : std::nullopt;
     }
@@ -250,6 +257,12 @@ class TextScanner {
     if (!tiny) return std::nullopt;
     cursor_ = end;
     return 0;
+  }
+
+  /// Whether a word is one of Microsoft's for what is no number: "-1.#IND", "1.#QNAN".
+  static bool isNanWord(std::string_view word) {
+    if (word.starts_with('-')) word.remove_prefix(1);
+    return word.starts_with("1.#IND") || word.starts_with("1.#QNAN") || word.starts_with("1.#SNAN");
   }
 
   /// A number with a decimal comma, as programs write it whose author forgot the locale.

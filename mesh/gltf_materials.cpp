@@ -4,6 +4,7 @@
 #include "mesh/gltf_materials.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/json_text.h"
@@ -279,9 +280,10 @@ void GltfMaterials::warnOfMaterials() const {
 }
 
 float GltfMaterials::bounded(double value, double most, const std::string& place) const {
-  if (!(value >= 0 && value <= most))
-    in_.fail(place + " has a factor that is negative or too large");
-  return static_cast<float>(value);
+  if (value >= 0 && value <= most) return static_cast<float>(value);
+  if (!std::isfinite(value)) in_.fail(place + " has a factor that is NaN or infinite");
+  source_.warn(place + " has a factor outside of its range, which is taken as the nearest in it");
+  return static_cast<float>(std::clamp(value, 0.0, most));
 }
 
 std::optional<std::uint32_t> GltfMaterials::readTexture(const Json& info,

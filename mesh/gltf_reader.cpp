@@ -266,6 +266,10 @@ class GltfReader {
       set.colors.push_back({static_cast<float>(c[i]), static_cast<float>(c[i + 1]),
                             static_cast<float>(c[i + 2]),
                             colors.components == 4 ? static_cast<float>(c[i + 3]) : 1.0f});
+      if (std::ranges::any_of(set.colors.back(), [](float s) { return std::isnan(s); })) {
+        set.colors.back().fill(1);
+        source_.warn(kNanColors);
+      }
       for (const float sample : set.colors.back()) {
         if (!(std::abs(sample) < 1e6f)) in_.fail(colors.place + " has a color that is not in 0..1");
       }

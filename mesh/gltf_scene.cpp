@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/text_scanner.h"
+
 namespace exemplar {
 
 GltfScene::GltfScene(GltfDocument& document, const MeshSource& source)
@@ -170,6 +172,11 @@ std::vector<GltfTransform> GltfScene::instanceTransforms(const Json& instancing,
   };
   const std::vector<double> moves = read("TRANSLATION", 3), rotations = read("ROTATION", 4),
                             scales = read("SCALE", 3);
+  for (const auto& item : attributes->items()) {
+    const std::string& key = item.key();
+    if (key != "TRANSLATION" && key != "ROTATION" && key != "SCALE")
+      source_.warn("attributes of instances that are not read: " + TextScanner::shown(key));
+  }
   std::vector<GltfTransform> transforms;
   constexpr double kNoMove[] = {0, 0, 0}, kNoTurn[] = {0, 0, 0, 1}, kNoScale[] = {1, 1, 1};
   for (std::uint64_t i = 0; i < count.value_or(1); ++i) {

@@ -100,6 +100,9 @@ inline Vec3d fromFileAxes(const Vec3d& p, bool yUp) { return yUp ? Vec3d{p.x, 0 
 /// the origin, 1 where coordinates are ten million times its size.
 double floatRounding(const TriangleMesh& mesh);
 
+/// What readers say of colors that are no numbers, whose vertices and faces have none then.
+inline constexpr const char* kNanColors = "colors that are NaN are left out";
+
 /// Why a coordinate cannot be taken ("is NaN or infinite"), or null.
 const char* coordinateProblem(const Vec3d& p);
 

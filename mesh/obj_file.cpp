@@ -20,6 +20,7 @@
 #include "mesh/mtl.h"
 #include "mesh/object_names.h"
 #include "mesh/polygon.h"
+#include "mesh/unplaced_vertices.h"
 
 namespace exemplar {
 namespace {
@@ -46,7 +47,7 @@ class ObjReader {
         readVertex();
       } else if (key == "vt") {
         readUv();
-      } else if (key == "f") {
+      } else if (key == "f" || key == "fo") {  // "fo" until 1991
         readFace();
       } else if (key == "o") {
         nameObject(std::string(in_.rest()));
@@ -59,6 +60,8 @@ class ObjReader {
       }
     }
     addPendingFaces();
+    if (const auto* vertex = unplaced_.firstUsed(mesh_, source_))
+      in_.fail(vertex->line, std::string("the vertex ") + vertex->problem);
     resolveColors();
     if (hasUvs_) resolveUvs();
     resolveMaterials();
@@ -88,7 +91,10 @@ class ObjReader {
     p.x = in_.number("x");
     p.y = in_.number("y");
     p.z = in_.number("z");
-    if (const char* problem = coordinateProblem(p)) in_.fail(std::string("the vertex ") + problem);
+    if (const char* problem = coordinateProblem(p)) {
+      unplaced_.add({mesh_.positions.size(), problem, in_.line()});
+      p = {};
+    }
     double more[4];
     int count = 0;
     while (count < 4 && !in_.atLineEnd()) more[count++] = in_.number("a vertex's number");
@@ -97,8 +103,12 @@ class ObjReader {
     if (count >= 3) {
       colors_.resize(mesh_.positions.size() - 1, kUncolored);
       colors_.push_back({more[0], more[1], more[2], count == 4 ? more[3] : 1});
-      for (const double c : colors_.back()) {
-        if (!(std::abs(c) < 1e6)) in_.fail("a vertex color should be between 0 and 1, or 255");
+      if (std::ranges::any_of(colors_.back(), [](double c) { return std::isnan(c); })) {
+        colors_.back() = kUncolored;
+        source_.warn(kNanColors);
+      } else if (std::ranges::any_of(colors_.back(),
+                                     [](double c) { return !(std::abs(c) < 1e6); })) {
+        in_.fail("a vertex color should be between 0 and 1, or 255");
       }
     } else if (!colors_.empty()) {
       colors_.push_back(kUncolored);
@@ -423,6 +433,7 @@ class ObjReader {
   TextScanner in_;
   const MeshSource& source_;
   TriangleMesh mesh_;
+  UnplacedVertices unplaced_;
   std::vector<std::array<double, 4>> colors_;  // as in the file; as many as positions, or none
   std::vector<Vec2f> uvs_;
   std::vector<std::array<std::uint32_t, 3>> uvIndices_;

@@ -10,6 +10,7 @@
 #include "mesh/face_outlines.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/polygon.h"
+#include "mesh/unplaced_vertices.h"
 
 namespace exemplar {
 namespace {
@@ -133,9 +134,19 @@ class OffReader {
     p.x = in_.number("x");
     p.y = in_.number("y");
     p.z = in_.number("z");
-    if (const char* problem = coordinateProblem(p)) in_.fail(std::string("the vertex ") + problem);
+    if (const char* problem = coordinateProblem(p)) {
+      unplaced_.add({mesh_.positions.size(), problem, in_.line()});
+      p = {};
+    }
     mesh_.positions.push_back(p);
-    if (!hasUvs_ && !hasColors_) return;  // and whatever follows has no meaning here
+    if (!hasUvs_ && !hasColors_) {
+      if (!hasNormals_ && !in_.atLineEnd() && in_.peek() != '#') {
+        source_.warn(
+            "numbers after a vertex's coordinates are left out: the first word would say "
+            "what they are (COFF: colors)");
+      }
+      return;
+    }
     readNumbers();
     // Normal, color, texture coordinates: in this order, or with the color before the normal.
     std::size_t end = numbers_.size();
@@ -169,8 +180,15 @@ class OffReader {
       const bool hasAlpha = rowNumbers_[v] == (hasNormals_ ? 7 : 4);
       colors_.push_back(
           {row[begin], row[begin + 1], row[begin + 2], hasAlpha ? row[begin + 3] : -1});
+      dropNan(colors_.back());
       checkColor(colors_.back());
     }
+  }
+
+  void dropNan(std::array<double, 4>& color) const {
+    if (std::ranges::none_of(color, [](double c) { return std::isnan(c); })) return;
+    color.fill(-1);
+    source_.warn(kNanColors);
   }
 
   void checkColor(const std::array<double, 4>& color) {
@@ -205,8 +223,11 @@ class OffReader {
                std::to_string(kMostCorners) + " can be cut into triangles");
     }
     std::array<double, 4> color{-1, -1, -1, -1};
+    if (numbers_.size() == 1)
+      source_.warn("colors of faces that are numbers of a table's rows are left out");
     if (numbers_.size() == 3 || numbers_.size() == 4) {
       std::copy(numbers_.begin(), numbers_.end(), color.begin());
+      dropNan(color);
       checkColor(color);
     }
     for (const auto& [a, b, c] : pieces_) {
@@ -237,6 +258,8 @@ class OffReader {
   }
 
   void finish() {
+    if (const auto* vertex = unplaced_.firstUsed(mesh_, source_))
+      in_.fail(vertex->line, std::string("the vertex ") + vertex->problem);
     finishColors();
     const double vertexScale = scaleOf(colors_);
     for (const auto& color : colors_)
@@ -257,6 +280,7 @@ class OffReader {
   TextScanner in_;
   const MeshSource& source_;
   TriangleMesh mesh_;
+  UnplacedVertices unplaced_;
   bool hasUvs_ = false, hasColors_ = false, hasNormals_ = false;
   NormalOrder order_;
   std::vector<std::array<double, 7>> rows_;  // of vertices with colors: what follows the position

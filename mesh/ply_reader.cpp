@@ -12,6 +12,7 @@
 #include "mesh/mesh_formats.h"
 #include "mesh/ply_rows.h"
 #include "mesh/polygon.h"
+#include "mesh/unplaced_vertices.h"
 
 namespace exemplar {
 namespace {
@@ -35,7 +36,8 @@ class Colors {
   }
   bool present() const { return index_[0] >= 0 && index_[1] >= 0 && index_[2] >= 0; }
   bool empty() const { return colors_.empty(); }
-  std::size_t count() const { return colors_.size(); }
+  /// Whether a row had a color that is no number; it counts as a row without one.
+  bool hasNan() const { return hasNan_; }
 
   /// Adds the color of the body's row, `times` times.
   void add(const Body& body, std::size_t times = 1) {
@@ -43,6 +45,11 @@ class Colors {
     for (int c = 0; c < 4; ++c) {
       if (index_[c] < 0) continue;
       const double value = body.scalar(index_[c]);
+      if (std::isnan(value)) {
+        color.fill(-1);
+        hasNan_ = true;
+        break;
+      }
       if (!(value >= -0.5 && value < 65535.5)) body.fail("a color is out of range");
       color[c] = static_cast<float>(std::max(0.0, value));
       most_[c] = std::max(most_[c], value);
@@ -78,6 +85,7 @@ class Colors {
   std::array<int, 4> index_{-1, -1, -1, -1};
   std::array<bool, 4> isReal_{}, isShort_{};
   std::array<double, 4> most_{};
+  bool hasNan_ = false;
   std::vector<std::array<float, 4>> colors_;
 };
 
@@ -123,9 +131,10 @@ class PlyReader {
     mesh_.positions.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       body.readRow();
-      const Vec3d p{body.scalar(x), body.scalar(y), body.scalar(z)};
+      Vec3d p{body.scalar(x), body.scalar(y), body.scalar(z)};
       if (const char* problem = coordinateProblem(p)) {
-        body.fail("vertex " + std::to_string(i) + " " + problem);
+        unplaced_.add({mesh_.positions.size(), problem, in_.line()});
+        p = {};
       }
       mesh_.positions.push_back(p);
       if (vertexColors_.present()) vertexColors_.add(body);
@@ -308,10 +317,16 @@ class PlyReader {
 
   void finish(const Body& body) {
     for (const Face& f : pendingFaces_) addFace(f.corners, f.uvs, f.material, f.texture, body);
+    if (const auto* vertex = unplaced_.firstUsed(mesh_, source_)) {
+      const std::string what = "vertex " + std::to_string(vertex->index) + " " + vertex->problem;
+      if (header_.encoding == Encoding::Ascii) in_.fail(vertex->line, what);
+      body.fail(what);
+    }
     if (shortFaces_ > 0) {
       source_.warn("leaving out " + counted(shortFaces_, "face") +
                    " with fewer than three corners");
     }
+    if (vertexColors_.hasNan() || faceColors_.hasNan()) source_.warn(kNanColors);
     for (const auto& color : vertexColors_.bytes(body)) mesh_.colors.push_back(fromRgba8(color));
     const std::size_t triangles = mesh_.triangles.size();
     if (mesh_.uvs.size() != triangles) mesh_.uvs.clear();
@@ -384,6 +399,7 @@ class PlyReader {
   const MeshSource& source_;
   Header header_;
   TriangleMesh mesh_;
+  UnplacedVertices unplaced_;
   bool hasVertices_ = false;
   Colors vertexColors_, faceColors_;
   std::vector<Vec2f> vertexUvs_;

@@ -58,9 +58,17 @@ std::uint32_t littleUint(const char* bytes) {
   return value;
 }
 
-/// Skips a solid's name, which lasts to the line's end or to the first facet on it.
+/// Skips a solid's name, which lasts to the line's end or to the first facet on it; it may hold the
+/// word itself.
 void skipName(TextScanner& in) {
-  while (!in.atLineEnd() && lowerCase(in.peekWord()) != "facet") in.word();
+  const auto facetFollows = [&] {
+    const std::string rest = lowerCase(in.peekRest().substr(0, 64));
+    if (!rest.starts_with("facet")) return false;
+    const std::size_t next = rest.find_first_not_of(" \t", 5);
+    return next != std::string::npos && next > 5 &&
+           (rest.compare(next, 6, "normal") == 0 || rest.compare(next, 5, "outer") == 0);
+  };
+  while (!in.atLineEnd() && !facetFollows()) in.word();
 }
 
 void appendLittle(std::string& out, std::uint32_t value) {
@@ -114,7 +122,16 @@ class FaceColors {
 
 TriangleMesh parseBinary(std::string_view bytes, const MeshSource& source) {
   const std::string& name = source.name;
-  const std::uint64_t count = littleUint(bytes.data() + 80);
+  std::uint64_t count = littleUint(bytes.data() + 80);
+  const std::uint64_t held = (bytes.size() - kHeaderBytes) / kTriangleBytes;
+  // What a program puts there that writes triangles before it knows how many will come.
+  constexpr std::uint64_t kUnknown = 0xffffffff;
+  if ((count == 0 || count == kUnknown) && held > 0 &&
+      bytes.size() == kHeaderBytes + held * kTriangleBytes) {
+    source.warn("its header does not say how many triangles it has; all " + std::to_string(held) +
+                " are read");
+    count = held;
+  }
   const std::uint64_t needed = kHeaderBytes + count * kTriangleBytes;
   if (needed > bytes.size()) {
     throw InputError(name + ": the file is truncated: its header promises " +
@@ -188,6 +205,10 @@ TriangleMesh parseText(std::string_view bytes, const MeshSource& source) {
     } else if (key == "solid") {
       ended = false;
       skipName(in);
+    } else if (key == "color" || key == "colour") {
+      while (in.tryNumber()) {
+      }
+      source.warn("colors of facets in text are left out");
     } else if (key != "outer" && key != "loop" && key != "endloop") {
       in.fail("'" + TextScanner::shown(written) + "' is not a word of an STL file");
     }

@@ -136,6 +136,12 @@ TEST(GltfScene, InstancesAreAllThere) {
   expectNear(turned.positions(),
              {{0, 0, 0}, {0, 2, 0}, {-2, 0, 0}, {0, 0, 0}, {-1, 0, 0}, {0, 1, 0}});
   EXPECT_GT(areaNormal(turned.read(), 1).z, 0) << "the outside stays out";
+  // What else an instance has is said.
+  turned.nodes = R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"SCALE":)" +
+                 scales + R"(,"_COLOR_0":)" + scales + "}}}}]";
+  Warnings warnings;
+  EXPECT_EQ(turned.read(&warnings).triangles.size(), 2u);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("instances that are not read: _COLOR_0")));
   turned.nodes = R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"SCALE":)" +
                  turns + "}}}}]";
   EXPECT_THROW(turned.read(), InputError);
@@ -257,6 +263,14 @@ TEST(GltfMaterial, FactorsOfMapsThatPicturesDoNotShowAreLeftOut) {
   scene.top = R"(,"materials":[{"emissiveFactor":[1,0.5,1]}])";
   EXPECT_EQ(scene.read().materials.at(0).emission, (Vec3f{1, 0.5f, 1})) << "a factor alone holds";
   EXPECT_THAT(scene.warnings(), IsEmpty());
+  // Factors of programs that do not look at their range.
+  scene.top = R"(,"materials":[{"emissiveFactor":[-1,0,0],"pbrMetallicRoughness":
+{"baseColorFactor":[1.5,0.5,-0.1,1],"roughnessFactor":2}}])";
+  m = scene.read().materials.at(0);
+  EXPECT_EQ(m.baseColor, (std::array<float, 4>{1, 0.5f, 0, 1}));
+  EXPECT_EQ(m.roughness, 1);
+  EXPECT_EQ(m.emission, (Vec3f{0, 0, 0}));
+  EXPECT_THAT(scene.warnings(), ElementsAre(HasSubstr("outside of its range")));
 }
 
 TEST(GltfMaterial, SpecularGlossinessKeepsItsDiffuseColor) {

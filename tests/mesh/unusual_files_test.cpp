@@ -266,8 +266,46 @@ TEST(UnusualPly, NotANumberMattersOnlyWhereItIsUsed) {
     parse(".ply", bad);
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(), "f.ply:13: x should be a number, not '-1.#IND'");
+    EXPECT_STREQ(e.what(), "f.ply:13: vertex 0 has a NaN or infinite coordinate");
   }
+}
+
+TEST(UnusualFiles, VerticesWithoutAPlaceMatterOnlyWhereAFaceNamesThem) {
+  // As scanners write points that they did not see; the box's own vertices come first.
+  const std::string nan = "nan nan nan\n";
+  std::string ply = plyHeader("", "");
+  ply.replace(ply.find("vertex 8"), 8, "vertex 9");
+  const std::pair<std::string, std::string> files[] = {
+      {".obj", boxVertices("v ") + "v " + nan + objFaces()},
+      {".off", "OFF\n9 6 0\n" + boxVertices("") + nan + boxFaces("4 ", 0)},
+      {".ply", ply + boxVertices("") + "1.#QNAN -1.#IND inf\n" + boxFaces("4 ", 0)}};
+  for (const auto& [ending, text] : files) {
+    const Read r = read(ending, text);
+    EXPECT_EQ(meshHealth(r.mesh).signedVolume, 24) << ending;
+    EXPECT_THAT(r.warnings, ElementsAre(HasSubstr("which no face uses, are left out: 1")))
+        << ending;
+    std::string used = text;
+    used.replace(used.rfind(ending == ".obj" ? '8' : '7'), 1, ending == ".obj" ? "9" : "8");
+    EXPECT_THROW(parse(ending, used), InputError) << ending;
+  }
+}
+
+TEST(UnusualFiles, ColorsThatAreNaNAreNone) {
+  const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
+  const auto check = [&](const std::string& ending, const std::string& text) {
+    std::string broken = text;
+    broken.replace(broken.find("255 0 0"), 3, "nan");
+    const Read r = read(ending, broken);
+    EXPECT_THAT(r.warnings, ElementsAre(HasSubstr("colors that are NaN are left out"))) << ending;
+    EXPECT_EQ(toRgba8(r.mesh.colors[5]), kRed) << ending;
+    if (ending != ".off") {
+      EXPECT_EQ(toRgba8(r.mesh.colors[0]), white) << ending;
+    }
+  };
+  check(".obj", boxVertices("v ", " 255 0 0") + objFaces());
+  check(".off", "COFF\n8 6 0\n" + boxVertices("", " 255 0 0") + boxFaces("4 ", 0));
+  check(".ply", plyHeader("property float red\nproperty float green\nproperty float blue\n", "") +
+                    boxVertices("", " 255 0 0") + boxFaces("4 ", 0));
 }
 
 TEST(UnusualPly, TexturesAreNamedInComments) {
@@ -379,7 +417,23 @@ TEST(UnusualStl, WhatIsTextShowsInTheContent) {
   EXPECT_EQ(parse(".stl", "SOLID big letters\n" + facet + "\nENDSOLID\n").triangles.size(), 1u);
   EXPECT_EQ(parse(".stl", " \r\n solid x " + facet + facet + "endsolid x").triangles.size(), 2u)
       << "all on one line";
+  EXPECT_EQ(parse(".stl", "solid my facet thing\n" + facet + "endsolid").triangles.size(), 1u)
+      << "a name with a word of text";
   EXPECT_THROW(parse(".stl", binaryStl("solid box", {}).substr(0, 600)), InputError);
+  std::string colored = facet;
+  colored.insert(colored.find("OUTER"), "color 1 0 0 ");
+  const Read r = read(".stl", "solid x\n" + colored + "endsolid x\n");
+  EXPECT_THAT(r.warnings, ElementsAre(HasSubstr("colors of facets in text")));
+}
+
+TEST(UnusualStl, AHeaderMayNotKnowHowManyTrianglesFollow) {
+  for (const char byte : {'\0', '\xff'}) {
+    const Read r = read(".stl", binaryStl("", {}).replace(80, 4, 4, byte));
+    expectBox(r.mesh, "without a count");
+    EXPECT_THAT(r.warnings, ElementsAre(HasSubstr("all 12 are read")));
+    EXPECT_THROW(parse(".stl", binaryStl("", {}).replace(80, 4, 4, byte).substr(0, 600)),
+                 InputError);
+  }
 }
 
 TEST(UnusualStl, WhatItsFloatsLoseIsSaid) {
@@ -415,6 +469,15 @@ TEST(UnusualOff, ColorsComeBeforeNormalsOrBehindThem) {
   EXPECT_EQ(colorOf("CNOFF", " 0 0 1 255 0 0 255"), kRed) << "Geomview";
   EXPECT_EQ(colorOf("CNOFF", " 0 -0.6 0.8 1 0 0 1"), kRed) << "Geomview, to 1";
   EXPECT_EQ(colorOf("COFF", " 255 0 0 255"), kRed);
+}
+
+TEST(UnusualOff, NumbersThatNothingAnnouncesAreSaid) {
+  Read r = read(".off", "OFF\n8 6 0\n" + boxVertices("", " 255 0 0") + boxFaces("4 ", 0));
+  expectBox(r.mesh, "colors without COFF");
+  EXPECT_THAT(r.warnings, ElementsAre(HasSubstr("numbers after a vertex's coordinates")));
+  r = read(".off", "OFF\n8 6 0\n" + boxVertices("") + boxFaces("4 ", 0, " 3"));
+  expectBox(r.mesh, "colors by number");
+  EXPECT_THAT(r.warnings, ElementsAre(HasSubstr("a table's rows")));
 }
 
 TEST(UnusualOff, PointsAndEdgesAmongItsFacesAreSaid) {
