@@ -75,10 +75,28 @@ std::vector<Vec3d> joinPoints(const TriangleMesh& mesh, const Vec3d& origin, dou
   return points;
 }
 
+// For each triangle the first one that is the same, begun at any corner.
+std::vector<std::uint32_t> firstEqual(const std::vector<Triangle>& triangles,
+                                      const Progress& progress) {
+  std::vector<std::pair<Triangle, std::uint32_t>> turned(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    Triangle key = triangles[t];
+    std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
+    turned[t] = {key, t};
+  }
+  sortInParallel(turned, progress);
+  std::vector<std::uint32_t> first(triangles.size());
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    const bool same = i > 0 && turned[i].first == turned[i - 1].first;
+    first[turned[i].second] = same ? first[turned[i - 1].second] : turned[i].second;
+  }
+  return first;
+}
+
 // A flat quadrilateral that is there from both sides, cut along one diagonal on one side and along
 // the other on the other: cuts both along the same one, so that its triangles are equal.
-void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles,
-                    const Progress& progress) {
+void matchDiagonalsOnce(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles,
+                        const Progress& progress) {
   struct Quad {
     Triangle left, right;              // from the diagonal's ends to a corner on each side
     std::array<std::uint32_t, 4> key;  // the corners, sorted
@@ -124,6 +142,20 @@ void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& tri
     }
     used[first.t] = used[first.u] = 1;
   }
+}
+
+// The same where triangles are there several times from one side: all of equal ones change alike.
+void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& triangles,
+                    const Progress& progress) {
+  const std::vector<std::uint32_t> first = firstEqual(triangles, progress);
+  std::vector<Triangle> different;
+  std::vector<std::uint32_t> place(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    place[t] = first[t] == t ? static_cast<std::uint32_t>(different.size()) : place[first[t]];
+    if (first[t] == t) different.push_back(triangles[t]);
+  }
+  matchDiagonalsOnce(points, different, progress);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) triangles[t] = different[place[t]];
 }
 
 // Triangles without those that have no area, and of equal ones what is left when opposite ones have
@@ -351,6 +383,109 @@ void connect(const std::vector<std::uint8_t>& onRim, const Progress& progress, T
   }
 }
 
+// What a soup's points and triangles are together: `closed`, `even`, neighbors and components.
+void describe(TriangleSoup& soup, const Progress& progress) {
+  std::vector<std::uint8_t> onRim(soup.points.size());
+  const std::vector<Side> sides = sortedSides(soup.triangles, progress);
+  soup.closed = soup.even = true;
+  constexpr std::uint32_t kNone = TriangleSoup::kNone;
+  soup.neighbors.assign(soup.triangles.size(), {kNone, kNone, kNone});
+  soup.componentClosed.clear();
+  forEdges(sides, progress, [&](std::size_t b, std::size_t e) {
+    int net = 0;
+    for (std::size_t i = b; i < e; ++i) net += sides[i].upwards ? 1 : -1;
+    soup.closed &= net == 0;
+    if (net != 0) onRim[sides[b].low] = onRim[sides[b].high] = 1;
+    soup.even &= (e - b) % 2 == 0;
+    if (e - b == 2 && net == 0) {
+      soup.neighbors[sides[b].triangle][sides[b].side] = sides[b + 1].triangle;
+      soup.neighbors[sides[b + 1].triangle][sides[b + 1].side] = sides[b].triangle;
+    }
+  });
+  connect(onRim, progress, soup);
+}
+
+// A component as a whole.
+struct Whole {
+  std::vector<std::uint32_t> triangles;
+  Box3d box;
+  double area = 0;    // twice
+  double volume = 0;  // six times, below 0 where it is turned inwards
+};
+
+std::vector<Whole> wholes(const TriangleSoup& soup, const Progress& progress) {
+  std::vector<Whole> result(soup.componentClosed.size());
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    if (looksUp(t)) progress.check();
+    Whole& whole = result[soup.component[t]];
+    const auto [a, b, c] = cornersOf(soup, t);
+    const Vec3d base =
+        whole.triangles.empty() ? a : soup.points[soup.triangles[whole.triangles[0]][0]];
+    for (const Vec3d& corner : {a, b, c}) whole.box.add(corner);
+    whole.area += length(cross(b - a, c - a));
+    whole.volume += dot(a - base, cross(b - base, c - base));
+    whole.triangles.push_back(t);
+  }
+  return result;
+}
+
+// Whether a triangle's corners, middles of sides and middle are less than `reach` from a surface.
+bool liesBeside(const Corners& t, const TriangleTree& surface, double reach) {
+  const Vec3d points[] = {t[0],
+                          t[1],
+                          t[2],
+                          (t[0] + t[1]) / 2,
+                          (t[1] + t[2]) / 2,
+                          (t[2] + t[0]) / 2,
+                          (t[0] + t[1] + t[2]) / 3};
+  return std::ranges::all_of(points,
+                             [&](const Vec3d& p) { return surface.distance(p, reach) < reach; });
+}
+
+// Leaves out closed components that are turned inwards and lie beside one that is turned outwards
+// and as large: the inner side of a shell without a thickness that could be seen, which bounds the
+// solid that it looks like.
+void dropInnerSides(TriangleSoup& soup, const Progress& progress) {
+  constexpr double kThin = 0.25;  // what a surface is right to where triangles cross, too
+  constexpr double kAlike = 1.5;  // of areas
+  const std::vector<Whole> all = wholes(soup, progress);
+  std::vector<std::uint32_t> inner, outer;
+  for (std::uint32_t c = 0; c < all.size(); ++c)
+    if (soup.componentClosed[c]) (all[c].volume < 0 ? inner : outer).push_back(c);
+  const auto before = [&](std::uint32_t c, std::uint32_t d) {
+    return std::tuple(all[c].box.min.x, c) < std::tuple(all[d].box.min.x, d);
+  };
+  std::sort(outer.begin(), outer.end(), before);
+  std::vector<std::uint8_t> drop(all.size());
+  for (const std::uint32_t i : inner) {
+    const Whole& in = all[i];
+    const auto isSideOf = [&](const Whole& out) {
+      for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(in.box.min[axis] - out.box.min[axis]) < kThin &&
+              std::abs(in.box.max[axis] - out.box.max[axis]) < kThin))
+          return false;
+      if (!(in.area < kAlike * out.area && out.area < kAlike * in.area)) return false;
+      std::vector<Corners> corners;
+      for (const std::uint32_t t : out.triangles) corners.push_back(cornersOf(soup, t));
+      const TriangleTree surface(std::move(corners), progress, TriangleTree::For::Distances);
+      return std::ranges::all_of(in.triangles, [&](std::uint32_t t) {
+        return liesBeside(cornersOf(soup, t), surface, kThin);
+      });
+    };
+    auto o = std::partition_point(outer.begin(), outer.end(), [&](std::uint32_t c) {
+      return all[c].box.min.x < in.box.min.x - kThin;
+    });
+    for (; o != outer.end() && all[*o].box.min.x < in.box.min.x + kThin && !drop[i]; ++o)
+      drop[i] = isSideOf(all[*o]);
+  }
+  if (std::ranges::none_of(drop, [](std::uint8_t d) { return d != 0; })) return;
+  std::vector<Triangle> kept;
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
+    if (!drop[soup.component[t]]) kept.push_back(soup.triangles[t]);
+  soup.triangles = std::move(kept);
+  describe(soup, progress);
+}
+
 }  // namespace
 
 std::vector<Corners> cornersOf(const TriangleSoup& soup) {
@@ -381,24 +516,9 @@ TriangleSoup makeSoup(const TriangleMesh& mesh, const Vec3d& origin, double scal
   report(0.4);
   orient(soup.points, soup.triangles, progress);
   report(0.6);
-  std::vector<std::uint8_t> onRim(soup.points.size());
-  const std::vector<Side> sides = sortedSides(soup.triangles, progress);
-  soup.closed = soup.even = true;
-  constexpr std::uint32_t kNone = TriangleSoup::kNone;
-  soup.neighbors.assign(soup.triangles.size(), {kNone, kNone, kNone});
-  forEdges(sides, progress, [&](std::size_t b, std::size_t e) {
-    int net = 0;
-    for (std::size_t i = b; i < e; ++i) net += sides[i].upwards ? 1 : -1;
-    soup.closed &= net == 0;
-    if (net != 0) onRim[sides[b].low] = onRim[sides[b].high] = 1;
-    soup.even &= (e - b) % 2 == 0;
-    if (e - b == 2 && net == 0) {
-      soup.neighbors[sides[b].triangle][sides[b].side] = sides[b + 1].triangle;
-      soup.neighbors[sides[b + 1].triangle][sides[b + 1].side] = sides[b].triangle;
-    }
-  });
-  report(0.8);
-  connect(onRim, progress, soup);
+  describe(soup, progress);
+  report(0.9);
+  dropInnerSides(soup, progress);
   return soup;
 }
 

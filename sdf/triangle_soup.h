@@ -18,7 +18,8 @@ namespace exemplar {
 /// positions are one (files split them at seams), triangles without area are left out, and of equal
 /// ones those of opposite orientation cancel and the others count once. A wall that is there twice,
 /// once for each side, does not cancel but counts once, too: all of a shell that is not flat, or a
-/// patch that closes what is open without it. Connected triangles that
+/// patch that closes what is open without it. The inner side of a closed shell that is less than a
+/// quarter (of `scale`) thick all over is left out. Connected triangles that
 /// meet two at an edge are oriented alike, as the larger area is, where that is possible.
 struct TriangleSoup {
   std::vector<Vec3d> points;

@@ -212,6 +212,26 @@ TEST(MeshToSdf, SidesOfADoubleSidedMeshMayBeCutAlongOtherDiagonals) {
                 1e-5)
           << some << ", " << alike;
     }
+  // The outer side twice.
+  TriangleMesh thrice = joined(box, box);
+  for (const auto& [a, b, c, d] : faces) addFace(thrice, d, c, b, a);
+  EXPECT_EQ(meshToSdf(thrice, options).values, once.values);
+}
+
+TEST(MeshToSdf, TheInnerSideOfAShellThatIsTooThinToBeSeenIsNone) {
+  const auto shrunk = [](double by) { return makeBox({{by, by, by}, {2 - by, 3 - by, 4 - by}}); };
+  const TriangleMesh box = shrunk(0);
+  const MeshToSdfOptions options{.resolution = 24, .padding = 2};  // voxels of 1/6
+  const DistanceField once = meshToSdf(box, options);
+  for (const double thickness : {1e-6, 0.02}) {
+    EXPECT_EQ(meshToSdf(joined(box, flipped(shrunk(thickness))), options).values, once.values);
+    // The side that is turned inwards may lie outside, too.
+    const DistanceField around = meshToSdf(joined(flipped(box), shrunk(thickness)), options);
+    EXPECT_LT(test::worstError(around, test::box({{0, 0, 0}, {2, 3, 4}})), thickness + 2e-5);
+  }
+  // A shell that can be seen is hollow.
+  const DistanceField hollow = meshToSdf(joined(box, flipped(shrunk(0.5))), options);
+  EXPECT_GT(hollow.values(hollow.size().x / 2, hollow.size().y / 2, hollow.size().z / 2), 0);
 }
 
 TEST(MeshToSdf, KeepsHollowsThatFaceOutwards) {
