@@ -62,14 +62,17 @@ bool isMeshFile(const std::filesystem::path& path);
 /// MeshLab write them, and to count to 1 or to 255, whichever a file's largest number says; `Kd`
 /// and `Ke` in a `.mtl` are linear.
 ///
+/// Numbers that are NaN matter where they are used: colors and texture coordinates have none then,
+/// and a vertex of a `.obj`, `.ply` or `.off` may have such a place while no face names it.
+///
 /// What is missing or cannot be kept (a material library, a texture or one that is no PNG or JPEG,
 /// maps other than the base color, faces with fewer than three corners) is left out and named in
 /// `options.warnings`; a factor whose map is left out is left out with it.
 ///
 /// Throws `InputError` naming the file, and the line in text formats, for anything malformed:
-/// truncated, indices of vertices that do not exist, NaN or infinite coordinates, no triangle; and
-/// `Cancelled`. Takes about 0.3 s for a million triangles; memory grows with the file, whatever its
-/// header claims.
+/// truncated, indices of vertices that do not exist, NaN or infinite coordinates of vertices that
+/// faces use, no triangle; and `Cancelled`. Takes about 0.3 s for a million triangles; memory grows
+/// with the file, whatever its header claims.
 TriangleMesh readMesh(const std::filesystem::path& path, const MeshFileOptions& options = {},
                       const Progress& progress = {});
 

@@ -205,7 +205,7 @@ TriangleMesh parseText(std::string_view bytes, const MeshSource& source) {
     } else if (key == "solid") {
       ended = false;
       skipName(in);
-    } else if (key == "color" || key == "colour") {
+    } else if (key == "color") {
       while (in.tryNumber()) {
       }
       source.warn("colors of facets in text are left out");
