@@ -63,16 +63,24 @@ std::string adviceOnCommand(const CLI::App& app, const std::string& word) {
          (guess.empty() ? "; see exemplar --help" : guess);
 }
 
-/// Of the first option that the command does not have; empty where it has all.
-std::string adviceOnOption(const CLI::App& command, std::span<const std::string> words) {
+/// The one of an application's commands that a word names; null where none does.
+const CLI::App* commandNamed(const CLI::App& app, const std::string& word) {
+  const auto named =
+      app.get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
+  return named.empty() ? nullptr : named.front();
+}
+
+/// Of the first option that a command, `name`, does not have; empty where it has all.
+std::string adviceOnOption(const CLI::App& command, const std::string& name,
+                           std::span<const std::string> words) {
   const std::vector<std::string> names = optionsOf(command);
   for (const std::string& word : words) {
     if (!word.starts_with("--") || word == "--") continue;
     const std::string option = word.substr(0, word.find('='));
     if (std::ranges::find(names, option) != names.end()) continue;
     const std::string guess = meant(option, names);
-    return option + ": exemplar " + command.get_name() + " has no such option" +
-           (guess.empty() ? "; see exemplar " + command.get_name() + " --help" : guess);
+    return option + ": exemplar " + name + " has no such option" +
+           (guess.empty() ? "; see exemplar " + name + " --help" : guess);
   }
   return {};
 }
@@ -81,18 +89,25 @@ std::string adviceOnOption(const CLI::App& command, std::span<const std::string>
 
 std::string adviceOn(const CLI::App& app, std::span<const std::string> words,
                      const CLI::ParseError& error) {
-  const CLI::App* command = nullptr;
+  std::string name;
   if (!words.empty() && !words.front().starts_with('-')) {
-    const auto named =
-        app.get_subcommands([&](const CLI::App* sub) { return sub->get_name() == words.front(); });
-    if (named.empty()) return adviceOnCommand(app, words.front());
-    command = named.front();
-    if (std::string advice = adviceOnOption(*command, words.subspan(1)); !advice.empty())
-      return advice;
+    const CLI::App* command = commandNamed(app, words.front());
+    if (!command) return adviceOnCommand(app, words.front());
+    name = words.front();
+    words = words.subspan(1);
+    // Commands of commands.
+    while (!words.empty()) {
+      const CLI::App* inner = commandNamed(*command, words.front());
+      if (!inner) break;
+      command = inner;
+      name += " " + words.front();
+      words = words.subspan(1);
+    }
+    if (std::string advice = adviceOnOption(*command, name, words); !advice.empty()) return advice;
   }
   std::string what = error.what();
   std::replace(what.begin(), what.end(), '\n', ' ');
-  return what + " (see exemplar " + (command ? command->get_name() + " " : "") + "--help)";
+  return what + " (see exemplar " + (name.empty() ? "" : name + " ") + "--help)";
 }
 
 }  // namespace exemplar

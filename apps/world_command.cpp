@@ -24,6 +24,7 @@
 #include "engine/json.h"
 #include "engine/output.h"
 #include "engine/words.h"
+#include "engine/world_levels.h"
 #include "engine/world_tiles.h"
 #include "engine/world_tileset.h"
 
@@ -34,7 +35,7 @@ struct Options {
   std::string example, engine, world, tile, region, tilesFile, output, as = "json";
   std::string formats;
   Settings settings;
-  int job = 4;
+  int job = 4, lod = 0;
   std::optional<int> side, window, height;
   bool cached = false;
   double remake = 1;
@@ -138,6 +139,10 @@ void make(const Options& options, Terminal& terminal) {
   const std::vector<PlaneBox> ranges = rangesOf(options);
   const World world = openWorld(options, terminal);
   const MakeOptions making{tileEndings(world, options.formats), options.job};
+  if (options.lod > 0 && std::ranges::find(making.endings, ".glb") == making.endings.end())
+    throw InputError("`lod`: coarser tiles are .glb; add glb to `formats`");
+  if (options.lod > 0 && world.examples().front().form() != Form::Heights)
+    throw InputError("`lod`: worlds of labels have one level of detail; leave it out");
   Stopwatch watch;
   Pace pace;
   MadeTiles sum;
@@ -164,6 +169,16 @@ void make(const Options& options, Terminal& terminal) {
     text += rate;
   }
   terminal.say("tiles", text);
+  if (options.lod > 0) {
+    MadeLevels levels;
+    for (const PlaneBox& range : ranges) {
+      const MadeLevels made = makeLevels(world, range, options.lod, terminal.progress());
+      levels.made += made.made;
+      levels.there += made.there;
+    }
+    terminal.say("levels", counted(static_cast<std::size_t>(levels.made), "coarser tile") +
+                               " made, " + withThousands(levels.there) + " were there");
+  }
   for (const std::string& warning : sum.warnings) terminal.warn(warning);
   terminal.say("memory", readableBytes(static_cast<double>(peakResidentBytes())) + " at its peak");
   if (sum.failed.empty()) return;
@@ -418,6 +433,12 @@ std::vector<Command> addWorldCommands(CLI::App& app) {
         command.add_option("--tiles", o.tilesFile,
                            "a file of tiles, I,J, or regions, one a line, in place of --region");
         addFormats(command, o);
+        command
+            .add_option("--lod", o.lod,
+                        "levels of detail of worlds of heights: coarser tiles for tileset.json, "
+                        "each of 2 x 2 of the level before (0)")
+            ->check(CLI::Range(0, kMostLevels))
+            ->option_text("N");
         addJob(command, o);
         addCache(command, o);
       });

@@ -89,9 +89,15 @@ TriangleMesh meshOfPieces(const World& world, const PlaneBox& one, const ModelPi
 TriangleMesh meshOfHeightTile(const World& world, const PlaneBox& one, std::vector<Vec3f>& normals,
                               const Progress& progress) {
   const Result around = world.around(one, 1, progress.part(0, 0.5));
-  const HeightMap& map = around.heights();
-  TriangleMesh all = meshOfHeights(map, progress.part(0.5, 0.7));
-  const ShadingNormals shading = shadingNormals(all, MeshNormals::Smooth, progress.part(0.7, 1));
+  return meshOfInside(around.heights(), normals, progress.part(0.5, 1));
+}
+
+}  // namespace
+
+TriangleMesh meshOfInside(const HeightMap& map, std::vector<Vec3f>& normals,
+                          const Progress& progress) {
+  TriangleMesh all = meshOfHeights(map, progress.part(0, 0.4));
+  const ShadingNormals shading = shadingNormals(all, MeshNormals::Smooth, progress.part(0.4, 1));
   std::vector<std::uint32_t> normalOf(all.positions.size());
   for (std::size_t t = 0; t < all.triangles.size(); ++t)
     for (int c = 0; c < 3; ++c) normalOf[all.triangles[t][c]] = shading.corners[t][c];
@@ -117,8 +123,6 @@ TriangleMesh meshOfHeightTile(const World& world, const PlaneBox& one, std::vect
   }
   return mesh;
 }
-
-}  // namespace
 
 TriangleMesh tileMesh(const World& world, const PlanePoint& tile, std::vector<Vec3f>* normals,
                       const Progress& progress) {

@@ -22,6 +22,11 @@ std::string usualFormat(const World& world);
 /// `InputError` for those that tiles of this world cannot be written to.
 std::vector<std::string> tileEndings(const World& world, const std::string& formats);
 
+/// The surface of a square of heights but its outer rows and columns, x and y from the first point
+/// that is left, and its vertices' normals, which know of those that are not.
+TriangleMesh meshOfInside(const HeightMap& map, std::vector<Vec3f>& normals,
+                          const Progress& progress = {});
+
 /// A tile as triangles, from its own corner. What lies around it is seen: tiles of pieces are
 /// divided along their edges as their neighbors are, and meet them; tiles of heights have their
 /// neighbors' points along their border and, where `normals` is given, the same normals there.

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "core/json_text.h"
 #include "core/vec.h"
 #include "engine/json.h"
+#include "engine/world_levels.h"
 
 namespace exemplar {
 namespace {
@@ -96,12 +98,14 @@ class Tileset {
         for (const Placed& tile : list) addBox(square.box, tile.box);
         const std::string name = std::to_string(part.x) + "_" + std::to_string(part.y) + ".json";
         writeFile(world_.folder() / "tilesets" / name,
-                  file(node(list, 1, [&](const Placed& tile) { return leaf(tile, "../"); })));
+                  file(node(list, 1, "../", [&](const Placed& tile, const Vec3d& frame) {
+                    return leaf(tile, frame, "../");
+                  })));
         squares.push_back(std::move(square));
         ++files;
       }
       writeFile(world_.folder() / "tileset.json",
-                file(node(squares, kSideOfPart, [&](const Placed& square) {
+                file(node(squares, kSideOfPart, "", [&](const Placed& square, const Vec3d&) {
                   const std::string name =
                       std::to_string(square.tile.x) + "_" + std::to_string(square.tile.y) + ".json";
                   return Json{{"boundingVolume", boxJson(square.box)},
@@ -110,27 +114,39 @@ class Tileset {
                 })));
     } else {
       writeFile(world_.folder() / "tileset.json",
-                file(node(tiles_, 1, [&](const Placed& tile) { return leaf(tile, ""); })));
+                file(node(tiles_, 1, "", [&](const Placed& tile, const Vec3d& frame) {
+                  return leaf(tile, frame, "");
+                })));
     }
     return files;
   }
 
  private:
-  Json leaf(const Placed& tile, const std::string& back) const {
-    // Column by column; the box is the tile's own.
-    const Vec3d at{static_cast<double>(tile.tile.x) * size_.x,
-                   static_cast<double>(tile.tile.y) * size_.y, 0};
+  Vec3d cornerOf(const PlanePoint& tile) const {
+    return {static_cast<double>(tile.x) * size_.x, static_cast<double>(tile.y) * size_.y, 0};
+  }
+
+  /// Column by column, from `frame` on, where what is above it begins.
+  static Json moved(const Vec3d& at, const Vec3d& frame) {
+    return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, at.x - frame.x, at.y - frame.y, 0, 1};
+  }
+
+  Json leaf(const Placed& tile, const Vec3d& frame, const std::string& back) const {
+    // The box is the tile's own.
+    const Vec3d at = cornerOf(tile.tile);
     return {{"boundingVolume", boxJson({tile.box.min - at, tile.box.max - at})},
             {"geometricError", 0},
-            {"transform", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, at.x, at.y, 0, 1}},
+            {"transform", moved(at, frame)},
             {"content",
              {{"uri", back + "tiles/0/" + std::to_string(tile.tile.x) + "/" +
                           std::to_string(tile.tile.y) + ".glb"}}}};
   }
 
-  /// A tree of squares over some tiles, each `side` tiles wide.
+  /// A tree of squares over some tiles, each `side` tiles wide. Squares lie as those of the coarser
+  /// levels of detail do, at multiples of their sides, but for the whole.
   template <class Leaf>
-  Json node(const std::vector<Placed>& tiles, std::int64_t side, const Leaf& leaf) const {
+  Json node(const std::vector<Placed>& tiles, std::int64_t side, const std::string& back,
+            const Leaf& leaf) const {
     PlaneBox all{tiles.front().tile, tiles.front().tile};
     for (const Placed& tile : tiles) {
       for (int axis = 0; axis < 2; ++axis) {
@@ -139,34 +155,80 @@ class Tileset {
       }
     }
     const auto longest = static_cast<std::uint64_t>(std::max(all.size(0), all.size(1)));
-    return square(tiles, all.begin, static_cast<std::int64_t>(std::bit_ceil(longest)), side, leaf);
+    auto across = static_cast<std::int64_t>(std::bit_ceil(longest));
+    const PlanePoint first{floorDivide(all.begin.x, across) * across,
+                           floorDivide(all.begin.y, across) * across};
+    if (all.end.x > first.x + across || all.end.y > first.y + across) across *= 2;
+    return square({tiles, first, across, side, back, {0, 0, 0}}, leaf);
+  }
+
+  /// A square of a tree: its tiles, its first one's number, how many it is wide, and the rest.
+  struct Square {
+    std::vector<Placed> tiles;
+    PlanePoint first;
+    std::int64_t across = 1, side = 1;
+    std::string back;
+    Vec3d frame;  ///< where what is above it begins
+  };
+
+  /// The coarser tile that shows all of a square, its box in the world, and its error.
+  struct Coarser {
+    std::string name;
+    Box3d box;
+    double error = 0;
+  };
+  std::optional<Coarser> coarserOf(const Square& s) const {
+    const int level = std::countr_zero(static_cast<std::uint64_t>(s.across));
+    if (s.side != 1 || level > kMostLevels) return std::nullopt;
+    if (static_cast<std::int64_t>(s.tiles.size()) != s.across * s.across) return std::nullopt;
+    const PlanePoint tile{floorDivide(s.first.x, s.across), floorDivide(s.first.y, s.across)};
+    if (tile.x * s.across != s.first.x || tile.y * s.across != s.first.y) return std::nullopt;
+    const std::optional<double> error = levelError(world_, level, tile);
+    if (!error) return std::nullopt;
+    const Box3d box = boxOfGlb(levelPath(world_, level, tile, ".glb"));
+    const Vec3d at = cornerOf(s.first);
+    return Coarser{"tiles/" + std::to_string(level) + "/" + std::to_string(tile.x) + "/" +
+                       std::to_string(tile.y) + ".glb",
+                   {box.min + at, box.max + at},
+                   *error};
   }
 
   template <class Leaf>
-  Json square(const std::vector<Placed>& tiles, const PlanePoint& first, std::int64_t across,
-              std::int64_t side, const Leaf& leaf) const {
-    if (across == 1) return leaf(tiles.front());
+  Json square(const Square& s, const Leaf& leaf) const {
+    if (s.across == 1) return leaf(s.tiles.front(), s.frame);
     Box3d box;
-    for (const Placed& tile : tiles) addBox(box, tile.box);
+    for (const Placed& tile : s.tiles) addBox(box, tile.box);
+    const std::optional<Coarser> coarser = coarserOf(s);
+    if (coarser) addBox(box, coarser->box);
+    const Vec3d frame = coarser ? cornerOf(s.first) : s.frame;
     Json children = Json::array();
-    const std::int64_t half = across / 2;
+    const std::int64_t half = s.across / 2;
+    double error = coarser ? coarser->error : 0;
     for (int quarter = 0; quarter < 4; ++quarter) {
-      const PlanePoint begin{first.x + quarter % 2 * half, first.y + quarter / 2 * half};
-      std::vector<Placed> inside;
-      for (const Placed& tile : tiles)
+      const PlanePoint begin{s.first.x + quarter % 2 * half, s.first.y + quarter / 2 * half};
+      Square part{{}, begin, half, s.side, s.back, frame};
+      for (const Placed& tile : s.tiles)
         if (PlaneBox{begin, {begin.x + half, begin.y + half}}.contains(tile.tile))
-          inside.push_back(tile);
-      if (!inside.empty()) children.push_back(square(inside, begin, half, side, leaf));
+          part.tiles.push_back(tile);
+      if (part.tiles.empty()) continue;
+      children.push_back(square(part, leaf));
+      error = std::max(error, children.back()["geometricError"].template get<double>());
     }
-    return {{"boundingVolume", boxJson(box)},
-            {"geometricError", static_cast<double>(across * side) * size_.x},
-            {"refine", "ADD"},
-            {"children", std::move(children)}};
+    Json node{
+        {"boundingVolume", boxJson({box.min - frame, box.max - frame})},
+        {"geometricError", coarser ? error : static_cast<double>(s.across * s.side) * size_.x},
+        {"refine", coarser ? "REPLACE" : "ADD"},
+        {"children", std::move(children)}};
+    if (coarser) {
+      node["transform"] = moved(frame, s.frame);
+      node["content"] = {{"uri", s.back + coarser->name}};
+    }
+    return node;
   }
 
   /// A file of a tree; one of a single tile is worth loading, too.
   std::string file(Json root) const {
-    root["refine"] = "ADD";
+    if (!root.contains("refine")) root["refine"] = "ADD";
     const double error = std::max(root["geometricError"].get<double>(), size_.x);
     return jsonText(Json{{"asset", {{"version", "1.1"}, {"generator", "exemplar"}}},
                          {"geometricError", error},

@@ -6,11 +6,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "core/file.h"
 #include "maps/height_map_file.h"
@@ -129,6 +133,70 @@ TEST_F(HeightWorldCommand, ExportIsWhatItsTilesAre) {
   EXPECT_EQ(different, 0);
 }
 
+TEST_F(HeightWorldCommand, CoarserTilesHaveTheWorldsPointsAndLeaveNoGap) {
+  const auto made = world("make w --region -2:1,0:2 --formats glb --lod 2 --cache");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("1 coarser tile made"));
+  EXPECT_FALSE(fs::exists(*folder_ / "w/tiles/1/0")) << "only what the region holds whole";
+  const TriangleMesh coarse = readMesh(*folder_ / "w/tiles/1/-1/0.glb");
+  ASSERT_EQ(world("export w --region -2:0,0:2 -o all.tif --cache").status, 0);
+  const HeightMap all = readHeightMap(*folder_ / "all.tif");
+  std::map<std::pair<int, int>, double> heights;
+  for (const Vec3d& p : coarse.positions) {
+    const int i = static_cast<int>(std::lround(p.x / 10)),
+              j = static_cast<int>(std::lround(p.y / 10));
+    EXPECT_EQ(static_cast<float>(p.z), all.at(i, 2 * kTile - j)) << i << " " << j;
+    heights[{i, j}] = p.z;
+  }
+  for (int i = 0; i <= 2 * kTile; ++i) {
+    for (const int j : {0, 2 * kTile}) {
+      EXPECT_TRUE(heights.contains({i, j})) << "the border has all points";
+      EXPECT_TRUE(heights.contains({j, i}));
+    }
+  }
+  EXPECT_FALSE(heights.contains({1, 1})) << "and the inside every other one";
+  const auto said = nlohmann::json::parse(readFile(*folder_ / "w/tiles/1/-1/0.json"));
+  const double error = said["error"];
+  // Half way along an edge that is in every cut of the coarse surface.
+  double largest = 0;
+  for (int i = 1; i < 2 * kTile; i += 2) {
+    for (int row = 0; row <= 2 * kTile; row += 2) {
+      const double between = (static_cast<double>(all.at(i - 1, row)) + all.at(i + 1, row)) / 2;
+      largest = std::max(largest, std::abs(between - all.at(i, row)));
+    }
+  }
+  EXPECT_GT(error, 0);
+  EXPECT_GE(error, largest - 1e-4);
+  EXPECT_LT(error, 3 * largest);
+
+  // The tileset shows it first, where its tiles are, and goes on to them.
+  ASSERT_EQ(world("index w").status, 0);
+  const auto tileset = nlohmann::json::parse(readFile(*folder_ / "w/tileset.json"));
+  int found = 0;
+  const auto look = [&](const auto& self, const nlohmann::json& node, double frame) -> void {
+    if (node.contains("transform")) frame += node["transform"][12].get<double>();
+    if (node.contains("content") && node["content"]["uri"] == "tiles/1/-1/0.glb") {
+      ++found;
+      EXPECT_EQ(node["refine"], "REPLACE");
+      EXPECT_EQ(node["geometricError"], error);
+      EXPECT_EQ(node["children"].size(), 4u);
+      EXPECT_EQ(frame, -2 * 10 * kTile);
+      // Moved against what is above them.
+      std::set<double> east;
+      for (const auto& tile : node["children"]) east.insert(tile["transform"][12].get<double>());
+      EXPECT_EQ(east, (std::set<double>{0, 10 * kTile}));
+    }
+    if (node.contains("children"))
+      for (const auto& child : node["children"]) self(self, child, frame);
+  };
+  look(look, tileset["root"], 0);
+  EXPECT_EQ(found, 1);
+  // A tile that is not there any more is not covered up.
+  fs::remove(*folder_ / "w/tiles/0/-1/1.glb");
+  ASSERT_EQ(world("index w").status, 0);
+  EXPECT_EQ(readFile(*folder_ / "w/tileset.json").find("tiles/1/"), std::string::npos);
+}
+
 TEST_F(HeightWorldCommand, RefusesInOneLine) {
   const std::pair<const char*, const char*> refused[] = {
       {"init e.asc -o v --window 24", "--window"},
@@ -138,6 +206,11 @@ TEST_F(HeightWorldCommand, RefusesInOneLine) {
       {"init e.asc -o v --scale 2,2,1", "world"},
       {"init e.asc -o w --tile 48 --window 96 --seed 6", "holds another world already"},
       {"make w --region 0:1,0:1 --formats vox", "vox"},
+      {"make w --region 0:2,0:2 --formats tif --lod 1", "glb"},
+      {"make w --region 0:2,0:2 --formats glb --lod 5", "--lod"},
+      {"make w --region 1048575:1048577,0:1", "1048575"},
+      {"plan w --region 0:4 --as json", "0:4"},
+      {"check w --region 4:0,0:4", "4:0"},
       {"export w --region 0:1,0:1 -o r.vdb", "vdb"},
   };
   for (const auto& [arguments, part] : refused) {

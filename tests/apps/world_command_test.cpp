@@ -171,6 +171,55 @@ TEST_F(WorldCommand, TheTilesetHasEachTileWhereItLies) {
   }
 }
 
+TEST_F(WorldCommand, TilesetsOfManyTilesHaveEachOnceInFilesOfTheirOwn) {
+  // One tile, 65 x 64 times around 0,0: what is in them is not what is asked here.
+  ASSERT_EQ(world("tile w 0,0 --formats glb").status, 0);
+  for (int x = -3; x < 62; ++x) {
+    fs::create_directories(folder_ / "w/tiles/0" / std::to_string(x));
+    for (int y = -60; y < 4; ++y) {
+      const fs::path path =
+          folder_ / "w/tiles/0" / std::to_string(x) / (std::to_string(y) + ".glb");
+      if (!fs::exists(path)) fs::create_hard_link(folder_ / "w/tiles/0/0/0.glb", path);
+    }
+  }
+  const auto run = world("index w");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("4,160 tiles in 5 files"));
+  const Box3d everywhere{{-1e9, -1e9, -1e9}, {1e9, 1e9, 1e9}};
+  const auto top = nlohmann::json::parse(readFile(folder_ / "w/tileset.json"));
+  const double size = nlohmann::json::parse(readFile(folder_ / "w/index.json"))["tile_size"][0];
+  std::set<std::string> tiles;
+  int files = 0;
+  const auto read = [&](const auto& self, const nlohmann::json& node) -> void {
+    if (node.contains("children"))
+      for (const auto& child : node["children"]) self(self, child);
+    if (!node.contains("content")) return;
+    ++files;
+    const fs::path path = folder_ / "w" / node["content"]["uri"].get<std::string>();
+    const auto part = nlohmann::json::parse(readFile(path));
+    EXPECT_LE(part["geometricError"].get<double>(), node["geometricError"].get<double>());
+    std::map<std::string, Box3d> found;
+    collect(part["root"], found, everywhere);
+    const std::vector<double> b = node["boundingVolume"]["box"];
+    const Vec3d center{b[0], b[1], b[2]}, half{b[3] + 1e-4, b[7] + 1e-4, b[11] + 1e-4};
+    for (const auto& [name, box] : found) {
+      // Names are relative to the part's file.
+      const fs::path file = fs::weakly_canonical(path.parent_path() / name);
+      EXPECT_TRUE(fs::exists(file)) << name;
+      EXPECT_TRUE(tiles.insert(file.string()).second) << name;
+      const double x = std::stod(file.parent_path().filename().string()) * size;
+      EXPECT_TRUE(box.min.x >= x - 1e-3 && box.max.x <= x + size + 1e-3) << name;
+      const Box3d outer{center - half, center + half};
+      EXPECT_TRUE(outer.contains(box.min + Vec3d{1e-4, 1e-4, 1e-4}) &&
+                  outer.contains(box.max - Vec3d{1e-4, 1e-4, 1e-4}))
+          << name;
+    }
+  };
+  read(read, top["root"]);
+  EXPECT_EQ(files, 4);
+  EXPECT_EQ(tiles.size(), 4160u);
+}
+
 TEST_F(WorldCommand, PlansHoldEachTileOnce) {
   const auto json = world("plan w --region 0:9,0:5 --as json");
   ASSERT_EQ(json.status, 0) << json.err;
@@ -215,6 +264,17 @@ TEST_F(WorldCommand, RefusesInOneLine) {
       {"make w", "--region"},
       {"make nowhere --region 0:1,0:1", "is no world"},
       {"make w --region 0:1,0:1 --formats tiff", "tiff"},
+      {"make w --region 0:2,0:2 --formats glb --lod 1", "one level"},
+      {"make w --region 0:1048577,0:1", "1048575"},
+      {"make w --tiles none.txt", "none.txt"},
+      {"plan w --region 0:2,0:2 --as condor", "--as"},
+      {"export w --region 0:2,0:2 -o r.xyz", "xyz"},
+      {"init castle -o v --turns 4", "--turns"},
+      {"init castle -o v --periodic x", "--periodic"},
+      {"init castle -o v --frames 4", "--frames"},
+      {"init castle -o v --pin 0,0,0=1", "--pin"},
+      {"init castle -o v --window 600", "--window"},
+      {"init castle -o v --tile 4", "--tile"},
   };
   for (const auto& [arguments, part] : refused) {
     const auto run = world(arguments);

@@ -16,6 +16,7 @@
 #include "core/cells.h"
 #include "core/error.h"
 #include "synth/model/examples.h"
+#include "tests/grid_share.h"
 #include "voxelize/violations.h"
 
 namespace exemplar {
@@ -130,6 +131,35 @@ TEST(LabelWorld, DoesNotRepeatWhatItBeginsWith) {
     for (int across = 1; across < 8; across += 3) most = std::max(most, alike(along, across));
   // No more than by chance; all of them if no window had been modified.
   EXPECT_LE(alike(n, 0), most);
+}
+
+/// Which share of the labels of each column along x the next one does not have.
+std::vector<double> changesOf(const LabelGrid& grid) {
+  const Vec3i size = grid.size();
+  std::vector<double> changes;
+  for (int x = 0; x + 1 < size.x; ++x) {
+    int different = 0;
+    for (int y = 0; y < size.y; ++y)
+      for (int z = 0; z < size.z; ++z)
+        different += grid.cells[{x, y, z}] != grid.cells[{x + 1, y, z}];
+    changes.push_back(static_cast<double>(different) / (size.y * size.z));
+  }
+  return changes;
+}
+
+TEST(LabelWorld, NoGridOfWindowsShows) {
+  const Rules& rules = cityRules();
+  constexpr int kPitch = 24;
+  WindowCache cache(1);
+  LabelGrid strip = rules.world(cache, kPitch).region({{0, 0}, {12 * kPitch + 1, 48}});
+  EXPECT_LT(testing::gridShare(changesOf(strip), kPitch), 0.1);
+  // It does where every window ends with columns that are alike.
+  for (int x = kPitch; x < strip.size().x; ++x) {
+    if (x % kPitch < kPitch - 4) continue;
+    for (int y = 0; y < strip.size().y; ++y)
+      for (int z = 0; z < strip.size().z; ++z) strip.cells[{x, y, z}] = strip.cells[{x - 1, y, z}];
+  }
+  EXPECT_GT(testing::gridShare(changesOf(strip), kPitch), 0.1);
 }
 
 TEST(LabelWorld, HoldsWhatTheExampleHolds) {

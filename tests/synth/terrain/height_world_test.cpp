@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "maps/drainage.h"
 #include "synth/terrain/outlets.h"
+#include "tests/grid_share.h"
 #include "tests/synth/terrain/height_samples.h"
 #include "tests/threads.h"
 
@@ -136,6 +138,33 @@ TEST(HeightWorld, NoStepShowsWhereWindowsMeet) {
   for (int y = 0; y < broken.height(); ++y)
     for (int x = 28; x < broken.width(); ++x) broken(x, y) += 60;
   EXPECT_GT(stepAtRims(broken), 1.29);
+}
+
+/// Where heights bend along x: a column's mean second difference.
+std::vector<double> bendsOf(const Grid<float>& heights) {
+  std::vector<double> bends;
+  for (int x = 1; x + 1 < heights.width(); ++x) {
+    double sum = 0;
+    for (int y = 0; y < heights.height(); ++y)
+      sum += std::abs(heights(x + 1, y) - 2 * heights(x, y) + heights(x - 1, y));
+    bends.push_back(sum / heights.height());
+  }
+  return bends;
+}
+
+TEST(HeightWorld, NoGridOfWindowsShows) {
+  Grid<float> strip = onThreads(8, [] {
+    return NewWorld().world.region({{-1, 0}, {8 * kPitch + 1, 64}}).heights;
+  });
+  EXPECT_LT(testing::gridShare(bendsOf(strip), kPitch), 0.1);
+  // A step as high as the land's bends are on average, along every window, shows.
+  const std::vector<double> own = bendsOf(strip);
+  const double mean =
+      std::accumulate(own.begin(), own.end(), 0.0) / static_cast<double>(own.size());
+  for (int x = 0; x < strip.width(); ++x)
+    for (int y = 0; y < strip.height(); ++y)
+      strip(x, y) += static_cast<float>(mean * (x / kPitch % 2));
+  EXPECT_GT(testing::gridShare(bendsOf(strip), kPitch), 0.1);
 }
 
 TEST(HeightWorld, NothingOfItsStartIsLeft) {
