@@ -195,6 +195,7 @@ class LayeredEngine final : public Engine {
                          {"skipping", skippingShare(made.map)},
                          {"skipping_example", found.skipping}};
     noteLayers(found, made, result);
+    warnOfDealing(made, settings.layers.shape.assignment, result);
     result.data = std::move(texture.map);
     result.exampleLayers = found.map;
     result.layers = std::move(made.map);

@@ -221,6 +221,14 @@ void warnOfAreas(const SynthesizedLayers& made, int count, Result& result) {
   }
 }
 
+void warnOfDealing(const SynthesizedLayers& made, AssignmentKind asked, Result& result) {
+  if (asked != AssignmentKind::Exact || made.dealtExactly) return;
+  result.warnings.push_back(
+      "`assignment` exact: there are more than " + std::to_string(kMostExactPairs) +
+      " pairs of a patch and one of the example, so that those were dealt out greedily; ask for a "
+      "smaller `size`, or crop the example");
+}
+
 LayeredSettings layeredPictureSettingsOf(const Request& request) {
   LayeredSettings settings = settingsOf(request, layeredPictureSettings(), {});
   if (!settings.inpaint.empty()) {

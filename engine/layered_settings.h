@@ -32,6 +32,8 @@ const SettingTable<LayeredSettings>& layeredVolumeSettings();
 
 /// Warns of layers, of `count`, whose areas are not what they should be.
 void warnOfAreas(const SynthesizedLayers& made, int count, Result& result);
+/// Warns where patches were dealt out greedily though the optimum was `asked`.
+void warnOfDealing(const SynthesizedLayers& made, AssignmentKind asked, Result& result);
 
 /// What a request says; throws `InputError` for what cannot be.
 LayeredSettings layeredPictureSettingsOf(const Request& request);

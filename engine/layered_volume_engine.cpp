@@ -104,6 +104,7 @@ class LayeredVolumeEngine final : public Engine {
         settings.regions ? synthesizeRegions(found.layers, size, settings.layers, part)
                          : synthesizeLayers(found.layers, size, settings.layers, part);
     warnOfAreas(made, count, result);
+    warnOfDealing(made, settings.layers.shape.assignment, result);
     const TextureOrigins from =
         originsOf(grid, found, made.map, settings.texture, progress.part(0.6, 1));
     LabelGrid labels{Array3D<Label>(size), grid.labels, grid.cellSize, grid.origin, grid.name};

@@ -93,7 +93,7 @@ Grid<std::uint16_t> distancesOf(const BoundaryPatches& set, const BoundaryPatche
   return distances;
 }
 
-/// Nothing where neither of the two can.
+/// Nothing where one patch of the example serves all, so that there is nothing to choose.
 std::optional<std::vector<BoundaryMatch>> assignExactly(const BoundaryPatches& set,
                                                         const BoundaryPatches& examples,
                                                         const std::vector<std::uint32_t>& uses,
@@ -176,13 +176,13 @@ std::vector<std::uint32_t> fairUses(std::size_t wanted, std::size_t examples,
   return uses;
 }
 
-std::vector<BoundaryMatch> assignPatches(const BoundaryPatches& set,
-                                         const BoundaryPatches& examples,
-                                         std::vector<std::uint32_t> uses, AssignmentKind kind,
-                                         const Random& random, const Progress& progress) {
-  if (kind == AssignmentKind::Exact && set.count() * examples.count() <= kMostExactPairs)
-    if (auto exact = assignExactly(set, examples, uses, progress)) return *std::move(exact);
-  return assignGreedily(set, examples, std::move(uses), random, progress);
+Assignment assignPatches(const BoundaryPatches& set, const BoundaryPatches& examples,
+                         std::vector<std::uint32_t> uses, AssignmentKind kind, const Random& random,
+                         const Progress& progress, std::size_t mostExactPairs) {
+  if (set.count() * examples.count() > mostExactPairs) kind = AssignmentKind::Greedy;
+  if (kind == AssignmentKind::Exact)
+    if (auto exact = assignExactly(set, examples, uses, progress)) return {*std::move(exact), kind};
+  return {assignGreedily(set, examples, std::move(uses), random, progress), kind};
 }
 
 }  // namespace exemplar

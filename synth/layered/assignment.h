@@ -17,7 +17,7 @@ enum class AssignmentKind {
   Greedy,  ///< cheapest pairs first; within a few hundredths of the optimum
   /// The optimum: of up to `kMostByPaths` patches by `assignByPaths`, of more by
   /// `assignByAuction`. Keeps 2 bytes for each pair of a patch and one of the example; greedy where
-  /// there are more than `kMostExactPairs` pairs, or the auction gives nothing.
+  /// there are more than `kMostExactPairs` pairs.
   Exact,
 };
 inline constexpr std::size_t kMostByPaths = 2000, kMostExactPairs = std::size_t{1} << 27;
@@ -33,12 +33,18 @@ std::vector<std::uint32_t> assignByPaths(const Grid<std::uint16_t>& costs,
 /// together: wanted / examples times each, and some, drawn at random, once more (section 3.2).
 std::vector<std::uint32_t> fairUses(std::size_t wanted, std::size_t examples, const Random& random);
 
+/// What every patch was given, and how: greedily, too, where there were too many pairs for the
+/// optimum that was asked.
+struct Assignment {
+  std::vector<BoundaryMatch> matches;
+  AssignmentKind kind = AssignmentKind::Greedy;
+};
 /// Gives every patch of `set` one of `examples`, each of which serves exactly `uses` times: the
 /// transportation problem that stands behind equation 3 (section 3.2, boundary patch matching).
 /// The sum of `uses` is the size of `set`. The same at any number of threads. Throws `Cancelled`.
-std::vector<BoundaryMatch> assignPatches(const BoundaryPatches& set,
-                                         const BoundaryPatches& examples,
-                                         std::vector<std::uint32_t> uses, AssignmentKind kind,
-                                         const Random& random, const Progress& progress = {});
+Assignment assignPatches(const BoundaryPatches& set, const BoundaryPatches& examples,
+                         std::vector<std::uint32_t> uses, AssignmentKind kind, const Random& random,
+                         const Progress& progress = {},
+                         std::size_t mostExactPairs = kMostExactPairs);
 
 }  // namespace exemplar

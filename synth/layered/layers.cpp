@@ -281,6 +281,7 @@ class Layering {
       for (std::size_t p = 0; p < made.count(); ++p)
         if (made.data()[p]) result.map.data()[p] = static_cast<std::uint8_t>(i);
     }
+    result.dealtExactly = dealtExactly_;
     return result;
   }
 
@@ -372,6 +373,7 @@ class Layering {
       OptimizedShape made =
           optimizeShape(std::move(start), likeness, limits, options_.shape, own.fork(3),
                         progress.part(until_[level + 1], until_[level]));
+      dealtExactly_ &= made.dealtExactly;
       coarser = made.shape;
       below_[level] = std::move(made);
       belowExample_[level] = std::move(likeness);
@@ -388,6 +390,7 @@ class Layering {
   std::vector<ShapePyramid> wanted_, painted_;
   ShapePyramid hole_;
   std::vector<OptimizedShape> below_;
+  bool dealtExactly_ = true;
   std::vector<ShapeExample> belowExample_;
   std::vector<double> until_;
 };

@@ -58,6 +58,7 @@ struct SynthesizedLayers {
   /// Of each layer from the second on: its share less what it should be. Not 0 only where the layer
   /// below left too little room.
   std::vector<double> areaErrors;
+  bool dealtExactly = true;  ///< not where greedy was asked, or patches were too many
 };
 /// Layers of this size that look like the example's, bottom to top, each inside the one below it
 /// and placed by that one's boundary (section 3.3); flat or in space, as the example is. The same

@@ -260,7 +260,7 @@ class Regions {
       optimize(map, pyramid_[static_cast<std::size_t>(l)], own.fork(2),
                progress.part(from, std::pow(share, l)));
     }
-    SynthesizedLayers result{std::move(map), {}};
+    SynthesizedLayers result{std::move(map), {}, dealtExactly_};
     const std::vector<double> made = layerShares(result.map, regions_);
     for (std::size_t k = 0; k < made.size(); ++k) result.areaErrors.push_back(made[k] - shares_[k]);
     return result;
@@ -332,7 +332,7 @@ class Regions {
   }
 
   RegionVotes votesFor(const LayerVolume& map, const RegionExample& example, const Random& random,
-                       float& median, const Progress& progress) const {
+                       float& median, const Progress& progress) {
     RegionVotes votes(static_cast<std::size_t>(regions_) + 1, Array3D<float>(map.size()));
     const std::vector<Shape> planes = planesOf(map, regions_);
     const ShapePlanes compared = comparedPlanes(planes);
@@ -342,9 +342,11 @@ class Regions {
       PlacedPatches placed{matchedCenters(std::move(cells), map.size()), {}};
       const Random draws = random.fork(pair.first * 16u + pair.second);
       const BoundaryPatches patches(compared, placed.boundary, options_.patch, 1, true);
-      placed.matches = assignPatches(patches, *examples,
-                                     fairUses(patches.count(), examples->count(), draws.fork(0)),
-                                     options_.assignment, draws.fork(1), progress);
+      Assignment dealt = assignPatches(patches, *examples,
+                                       fairUses(patches.count(), examples->count(), draws.fork(0)),
+                                       options_.assignment, draws.fork(1), progress);
+      placed.matches = std::move(dealt.matches);
+      dealtExactly_ &= dealt.kind == AssignmentKind::Exact;
       forEachPasted(*examples, placed, map.size(), example.map.size(), options_.exampleWraps,
                     [&](std::size_t cell, std::size_t from, float weight) {
                       votes[example.map.data()[from]].data()[cell] += weight;
@@ -402,6 +404,7 @@ class Regions {
   Random random_;
   std::vector<double> shares_;
   std::vector<LayerVolume> pyramid_;
+  bool dealtExactly_ = true;
 };
 
 }  // namespace

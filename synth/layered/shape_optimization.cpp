@@ -427,9 +427,11 @@ OptimizedShape optimizeShape(Shape start, const ShapeExample& example, const Sha
     ShapePlanes planes(shape);
     if (limits.below) planes.shapes.push_back(limits.below);
     const BoundaryPatches patches(planes, placed.boundary, options.patch, 1, true);
-    placed.matches = assignPatches(
+    Assignment dealt = assignPatches(
         patches, example.patches, fairUses(patches.count(), example.patches.count(), draws.fork(0)),
         options.assignment, draws.fork(1), part);
+    placed.matches = std::move(dealt.matches);
+    result.dealtExactly &= dealt.kind == AssignmentKind::Exact;
     const PatchVotes votes =
         votesOf(example.shape, example.patches, placed, size, options.exampleWraps);
     const float median = votes.medianWeight(placed.boundary);

@@ -116,6 +116,7 @@ struct OptimizedShape {
   Shape shape;
   PlacedPatches placed;
   int iterations = 0;
+  bool dealtExactly = true;  ///< in all of them
 };
 /// Changes `start` until its boundary looks like the example's at this resolution: matching and
 /// voting in turns. Its area becomes the example's share; of several thresholds of certainty below

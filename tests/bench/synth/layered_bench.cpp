@@ -35,7 +35,8 @@ void matching(benchmark::State& state, bool plain) {
   for (auto _ : state) {
     const std::vector<BoundaryMatch> matches =
         plain ? matchPlainly(set, i.example.patches, uses)
-              : assignPatches(set, i.example.patches, uses, AssignmentKind::Greedy, Random(2));
+              : assignPatches(set, i.example.patches, uses, AssignmentKind::Greedy, Random(2))
+                    .matches;
     distance = 0;
     for (const BoundaryMatch& match : matches) distance += match.distance;
   }

@@ -186,7 +186,7 @@ TEST(AssignPatches, UsesEveryExampleAlike) {
       EXPECT_GE(u, wanted / examples);
       EXPECT_LE(u, wanted / examples + 1);
     }
-    const auto matches = assignPatches(i.set, i.examples, uses, kind, Random(2));
+    const auto matches = assignPatches(i.set, i.examples, uses, kind, Random(2)).matches;
     std::vector<std::uint32_t> used(examples);
     for (std::size_t s = 0; s < matches.size(); ++s) {
       ++used[matches[s].patch];
@@ -204,7 +204,7 @@ TEST(AssignPatches, GreedyIsNearTheOptimum) {
     const auto uses = fairUses(i.set.count(), i.examples.count(), Random(1));
     const auto cost = [&](AssignmentKind kind) {
       double sum = 0;
-      for (const auto& m : assignPatches(i.set, i.examples, uses, kind, Random(2)))
+      for (const auto& m : assignPatches(i.set, i.examples, uses, kind, Random(2)).matches)
         sum += m.distance;
       return sum;
     };
@@ -238,10 +238,13 @@ TEST(AssignPatches, ExactIsTheOptimumOfSmallInstances) {
     least = std::min(least, sum);
   } while (std::ranges::next_permutation(order).found);
   int sum = 0;
-  for (const auto& m : assignPatches(set, examples, std::vector<std::uint32_t>(7, 1),
-                                     AssignmentKind::Exact, Random(1)))
-    sum += m.distance;
+  const std::vector<std::uint32_t> once(7, 1);
+  const Assignment dealt = assignPatches(set, examples, once, AssignmentKind::Exact, Random(1));
+  EXPECT_EQ(dealt.kind, AssignmentKind::Exact);
+  for (const auto& m : dealt.matches) sum += m.distance;
   EXPECT_EQ(sum, least);
+  EXPECT_EQ(assignPatches(set, examples, once, AssignmentKind::Exact, Random(1), {}, 48).kind,
+            AssignmentKind::Greedy);
 }
 
 TEST(AssignPatches, AuctionAndPathsCostTheSame) {
@@ -364,7 +367,8 @@ TEST(OptimizeShape, ComesNearerOnEveryResolution) {
       for (const BoundaryMatch& match :
            assignPatches(patches, example.patches,
                          fairUses(patches.count(), example.patches.count(), Random(2)),
-                         AssignmentKind::Greedy, Random(3)))
+                         AssignmentKind::Greedy, Random(3))
+               .matches)
         sum += match.distance;
       return sum / static_cast<double>(patches.count());
     };
