@@ -214,11 +214,18 @@ bool Search::begin(std::span<const std::uint32_t> vertices, std::uint32_t region
   trailWords_.clear();
   choices_.clear();
   queue_.clear();
+  // Most vertices of a class have the same domain as the last one of it, and so the same row.
+  std::vector<std::uint32_t> lastOf(puzzle_.classes.size(), EdgeEnd::kNone);
   for (const std::uint32_t v : vertices_) {
     marks_.region[v] = region_;
     marks_.saved[v] = 0;
     marks_.queued[v] = 0;
-    rowOf(v, edgesOf(v));
+    std::uint32_t& last = lastOf[puzzle_.arrangement.kind(v)];
+    if (last != EdgeEnd::kNone && std::ranges::equal(domains_[v], domains_[last]))
+      std::copy_n(edgesOf(last), rowsOf(v).words(), edgesOf(v));
+    else
+      rowOf(v, edgesOf(v));
+    last = v;
   }
   bool consistent = true;
   for (const std::uint32_t v : vertices_) {

@@ -115,8 +115,8 @@ class Search {
   /// Makes the domains what they were after `begin`, which takes what they have changed since. Only
   /// where nothing else has changed them.
   void again();
-  /// After `begin` or `again`: gives each of the vertices one label, in their order. After `Spent` and
-  /// `Nothing` the domains are what they were after `begin`. Throws `Cancelled`.
+  /// After `begin` or `again`: gives each of the vertices one label, in their order. After `Spent`
+  /// and `Nothing` the domains are what they were after `begin`. Throws `Cancelled`.
   Found run(const Random& random, std::int64_t budget, const Progress& progress = {});
   /// The same in an order in which what is built grows from seeds: a vertex at random among those
   /// next to what is built, until nothing can grow; then all else stays as empty as it can.

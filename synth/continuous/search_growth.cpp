@@ -14,9 +14,12 @@ namespace {
 constexpr int kSeedDraws = 64;
 /// Choices between two reports.
 constexpr int kReport = 64;
-/// How often a result that has closed too early is opened again, and which share of what should
-/// grow is enough.
-constexpr int kReopenings = 40;
+/// Where a result has closed too early, or cannot be closed, it is opened again: how many of the
+/// last choices that may undo at first, how many times as many where that was in vain, and which
+/// share of what should grow is enough.
+constexpr std::size_t kFirstWindow = 4, kWiden = 4;
+/// Failures without more that is built than before after which more is undone than one choice.
+constexpr std::int64_t kStuck = 12;
 constexpr double kFullyGrown = 0.9;
 
 }  // namespace
@@ -53,7 +56,7 @@ class Grower {
         marks_(search.puzzle_.arrangement.vertices()) {}
 
   Found run(std::int64_t budget, const Progress& progress) {
-    const std::int64_t failuresAllowed = search_.counts_.failures + budget;
+    failuresAllowed_ = search_.counts_.failures + budget;
     for (const std::uint32_t v : search_.vertices_) see(v);
     while (true) {
       progress.check();
@@ -74,7 +77,7 @@ class Grower {
         follow(choice->trail);
         continue;
       }
-      if (const std::optional<Found> end = takeBack(failuresAllowed)) return *end;
+      if (const std::optional<Found> end = takeBack()) return *end;
     }
   }
 
@@ -93,8 +96,7 @@ class Grower {
   bool hasGrown() const { return builtShare() >= growth_.share; }
   bool mayBeEmpty(std::uint32_t v) const {
     const int background = search_.puzzle_.background[v];
-    return background >= 0 &&
-           contains(search_.domains_[v], static_cast<std::size_t>(background));
+    return background >= 0 && contains(search_.domains_[v], static_cast<std::size_t>(background));
   }
   /// Whether a vertex is undecided and next to something built.
   bool isNext(std::uint32_t v) const {
@@ -204,19 +206,29 @@ class Grower {
 
   /// Undoes some of the last choices where nothing can grow any more and too little has grown.
   bool reopen() {
-    if (reopened_ >= kReopenings || closing_ || search_.choices_.size() < 2) return false;
-    if (builtShare() >= kFullyGrown * growth_.share) return false;
-    ++reopened_;
-    const auto choices = static_cast<std::uint32_t>(search_.choices_.size());
-    const std::uint32_t kept = choices / 2 + random_.below((choices + 1) / 2, draw_++, 4);
-    return takingBack([&] {
-      search_.takeBackTo(kept);
+    if (closing_ || builtShare() >= kFullyGrown * growth_.share) return false;
+    return open(search_.choices_.size());
+  }
+  /// Undoes some choices before the one of a number: more and more of them until more has grown.
+  bool open(std::size_t before) {
+    if (search_.counts_.failures >= failuresAllowed_ || before < 2) return false;
+    stuck_ = 0;
+    if (built_ > mostBuilt_) window_ = kFirstWindow;
+    mostBuilt_ = std::max(mostBuilt_, built_);
+    const std::size_t most = std::min(window_, before - 1);
+    window_ = kWiden * most;
+    const std::size_t some = 1 + random_.below(static_cast<std::uint32_t>(most), draw_++, 4);
+    takingBack([&] {
+      search_.takeBackTo(before - some);
       return true;
     });
+    closing_ = false;
+    return true;
   }
 
   /// An undecided vertex that cannot be empty, as empty as it can be.
   std::optional<Choice> closing() {
+    if (!closing_) beforeClosing_ = search_.choices_.size();
     closing_ = true;
     while (!open_.empty()) {
       const std::uint32_t v = open_.back();
@@ -244,12 +256,19 @@ class Grower {
   }
 
   /// Undoes a choice that failed.
-  std::optional<Found> takeBack(std::int64_t failuresAllowed) {
+  std::optional<Found> takeBack() {
     if (const std::optional<Found> end =
-            takingBack([&] { return search_.backtrack(failuresAllowed, start_); }))
+            takingBack([&] { return search_.backtrack(failuresAllowed_, start_); }))
       return end;
     follow(search_.choices_.empty() ? start_ : search_.choices_.back().trail);
-    closing_ = false;
+    closing_ = closing_ && search_.choices_.size() >= beforeClosing_;
+    if (built_ > mostBuilt_) {
+      mostBuilt_ = built_;
+      window_ = kFirstWindow;
+      stuck_ = 0;
+    } else if (++stuck_ >= kStuck) {
+      open(closing_ ? beforeClosing_ : search_.choices_.size());
+    }
     return std::nullopt;
   }
 
@@ -258,7 +277,7 @@ class Grower {
   Search& search_;
   const Growth& growth_;
   const Random& random_;
-  std::size_t start_;                     // of the trail
+  std::size_t start_;  // of the trail
   // Of vertices: whether they are in `frontier_`, in `open_`, and counted as built.
   static constexpr std::uint8_t kOnFrontier = 1, kOpen = 2, kBuilt = 4;
   std::vector<std::uint8_t> marks_;
@@ -266,9 +285,14 @@ class Grower {
   std::vector<std::uint32_t> open_;      // cannot be empty, or could not before
   std::vector<std::uint32_t> undone_;    // scratch
   std::uint64_t draw_ = 0;
-  int seeds_ = 0, reopened_ = 0;
-  std::int64_t built_ = 0;  // vertices
-  bool closing_ = false;    // nothing grows any more
+  int seeds_ = 0;
+  std::int64_t failuresAllowed_ = 0;
+  std::int64_t built_ = 0;             // vertices
+  std::int64_t mostBuilt_ = 0;         // when something was taken back
+  std::int64_t stuck_ = 0;             // failures since then
+  std::size_t window_ = kFirstWindow;  // choices of which some are undone when it is opened next
+  bool closing_ = false;               // nothing grows any more
+  std::size_t beforeClosing_ = 0;      // choices
 };
 
 Found Search::grow(const Growth& growth, const Random& random, std::int64_t budget,

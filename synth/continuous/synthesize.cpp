@@ -354,9 +354,10 @@ class Synthesis {
   Found makeWhole(Puzzle& puzzle, const Domains& allowed, Search& search,
                   const Progress& progress) {
     ContinuousStatistics& s = result_.statistics;
-    const std::int64_t budget = options_.budget > 0
-                                    ? options_.budget
-                                    : 1000 + static_cast<std::int64_t>(vertices_.size()) / 10;
+    const auto most = static_cast<std::int64_t>(vertices_.size()) / 10;
+    const std::int64_t budget = options_.budget > 0 ? options_.budget
+                                : growth_           ? 4 * kQuickGrowth
+                                                    : 1000 + most;
     if (guide_) search.setGuide(&*guide_);
     // Where results are guided, they are as full as the guide says.
     const int wanted = guide_ || options_.learning == 0 ? 1 : kResults;
@@ -372,7 +373,7 @@ class Synthesis {
       const double share = 1.0 / (kQuickAttempts + options_.attempts + wanted);
       const Progress part =
           progress.part(std::min(1.0, share * (s.attempts - 1)), std::min(1.0, share * s.attempts));
-      const std::int64_t failures = quick > 0 ? kQuickBudget : budget;
+      const std::int64_t failures = quick == 0 ? budget : growth_ ? kQuickGrowth : kQuickBudget;
       const Found found = growth_ ? search.grow(*growth_, random, failures, part)
                                   : search.run(random, failures, part);
       s.choices = search.counts().choices;
@@ -425,8 +426,7 @@ class Synthesis {
     completeImages(labels);
     ContinuousStatistics& s = result_.statistics;
     if (grounded_) {
-      s.floating =
-          removeFloating(puzzle, allowed, inner_, example_.ground->substance, labels);
+      s.floating = removeFloating(puzzle, allowed, inner_, example_.ground->substance, labels);
     }
     if (growth_) {
       s.groups = keepLargest(puzzle, allowed, inner_, *growth_, options_.groups, labels);
@@ -519,10 +519,10 @@ class Synthesis {
   static constexpr std::int64_t kConflicts = 300'000;
   /// Results of which the nearest to the wanted shares is taken, and how near is near enough.
   static constexpr int kResults = 4;
-  static constexpr double kNear = 1.4, kFar = 4;
+  static constexpr double kNear = 1.5, kFar = 4;
   /// Attempts of few failures before the long ones: most results need none, or a great many.
   static constexpr int kQuickAttempts = 12;
-  static constexpr std::int64_t kQuickBudget = 200;
+  static constexpr std::int64_t kQuickBudget = 200, kQuickGrowth = 400;
   /// Spacings beyond an open side: enough that its end has no influence on what is there.
   static constexpr std::int64_t kMargin = 3;
 

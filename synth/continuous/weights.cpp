@@ -23,6 +23,8 @@ constexpr double kUnseenShare = 0.02;
 /// Trial results of a round, whose shares are averaged: a large one varies less by chance.
 constexpr int kTrials = 2;
 constexpr std::size_t kLargeTrial = 20'000;  // vertices, of which one is enough
+/// Failures of a trial that is grown: one that goes on for long tells nothing.
+constexpr std::int64_t kGrownTrial = 60;
 /// Shares that are this near to those wanted need no further round.
 constexpr double kLearned = 1.2;
 
@@ -135,7 +137,8 @@ void learnWeights(ClassWeights& weights, const Puzzle& puzzle, const Domains& co
   Search search(puzzle, current, domains, marks);
   if (!search.begin(vertices, 1)) return;
   const int trials = vertices.size() > kLargeTrial ? 1 : kTrials;
-  const auto budget = 100 + static_cast<std::int64_t>(vertices.size()) / 50;
+  const auto budget =
+      options.growth ? kGrownTrial : 100 + static_cast<std::int64_t>(vertices.size()) / 50;
   std::optional<Domains> grounded;
   for (int round = 0; round < options.rounds && nearest > kLearned; ++round) {
     progress.report("learning weights", static_cast<double>(round) / options.rounds);

@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -412,6 +413,66 @@ TEST(Search, PropagationKeepsEverySolution) {
     }
     // All solutions are found by blocking none: a search with any seed finds one of them.
     EXPECT_EQ(search.run(Random(1), 100), Found::All);
+  }
+}
+
+/// A search must end with a result or the proof that there is none, however much likelier the
+/// labels are that fail: a label that has failed is not tried again in the same place.
+TEST(Search, DecidesWhatTheExactSolverDecides) {
+  std::int64_t failures = 0;
+  int impossible = 0, complete = 0;
+  const std::vector<std::string> names{"l-block", "pyramid", "gabled", "tetrahedron"};
+  for (std::uint64_t seed = 1; seed <= 48; ++seed) {
+    const int side = 2 + static_cast<int>(seed % 3);
+    Small small(names[seed % names.size()], {side, side, 3});
+    const Random random(seed);
+    // Some vertices may be a few of their labels only, and labels differ much in weight.
+    for (std::size_t n = 0; n < small.vertices.size(); ++n) {
+      if (random.below(seed % 2 ? 3 : 12, n, 1) != 0) continue;
+      const std::span<Word> domain = small.puzzle.domains[small.vertices[n]];
+      std::vector<std::size_t> labels;
+      forEach(domain, [&](std::size_t l) { labels.push_back(l); });
+      for (const std::size_t l : labels)
+        if (count(domain) > 1 && random.below(2, n, 10 + static_cast<std::uint32_t>(l)) == 0)
+          takeOut(domain, l);
+    }
+    std::vector<double> weights;
+    for (std::size_t f = 0; f < small.figures.size(); ++f)
+      weights.push_back(std::pow(10.0, random.below(13, f, 3)));
+    Domains domains = small.puzzle.domains;
+    Search::Marks marks(small.puzzle);
+    Search search(small.puzzle, weights, domains, marks);
+    if (!search.begin(small.vertices, 1)) continue;
+    ExactSearch exact(small.puzzle, domains, small.vertices);
+    const Outcome outcome = exact.solve({}, 100'000);
+    const Found found = search.run(random, 20'000);
+    EXPECT_EQ(found, outcome == Outcome::Complete ? Found::All : Found::Nothing) << seed;
+    failures += search.counts().failures;
+    ++(outcome == Outcome::Complete ? complete : impossible);
+  }
+  EXPECT_GT(complete, 0);
+  EXPECT_GT(failures, 20) << complete << " complete, " << impossible << " impossible";
+}
+
+/// Attempts begin from the same domains, whatever the last one has left.
+TEST(Search, BeginsAgainWhereItBegan) {
+  const Small small("pyramid", {3, 3, 2});
+  Domains domains = small.puzzle.domains;
+  Search::Marks marks(small.puzzle);
+  const std::vector<double> weights(small.figures.size(), 1);
+  Search search(small.puzzle, weights, domains, marks);
+  ASSERT_TRUE(search.begin(small.vertices, 1));
+  const Domains begun = domains;
+  const std::vector<Word> edges = marks.edges;
+  const Growth growth = growthOf(small.puzzle, std::nullopt);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Found found =
+        seed % 2 ? search.run(Random(seed), 1000) : search.grow(growth, Random(seed), 1000);
+    ASSERT_EQ(found, Found::All) << seed;
+    EXPECT_NE(domains, begun);
+    search.again();
+    EXPECT_EQ(domains, begun);
+    EXPECT_EQ(marks.edges, edges);
   }
 }
 
