@@ -18,6 +18,8 @@ constexpr int kReport = 64;
 /// last choices that may undo at first, how many times as many where that was in vain, and which
 /// share of what should grow is enough.
 constexpr std::size_t kFirstWindow = 4, kWiden = 4;
+/// How often a result that has closed too early is opened again, and how often without more growth.
+constexpr int kReopenings = 60, kMostInVain = 8;
 /// Failures without more that is built than before after which more is undone than one choice.
 constexpr std::int64_t kStuck = 12;
 constexpr double kFullyGrown = 0.9;
@@ -207,6 +209,8 @@ class Grower {
   /// Undoes some of the last choices where nothing can grow any more and too little has grown.
   bool reopen() {
     if (closing_ || builtShare() >= kFullyGrown * growth_.share) return false;
+    inVain_ = built_ > mostBuilt_ ? 0 : inVain_ + 1;
+    if (inVain_ > kMostInVain || ++reopened_ > kReopenings) return false;
     return open(search_.choices_.size());
   }
   /// Undoes some choices before the one of a number: more and more of them until more has grown.
@@ -289,6 +293,7 @@ class Grower {
   std::int64_t failuresAllowed_ = 0;
   std::int64_t built_ = 0;             // vertices
   std::int64_t mostBuilt_ = 0;         // when something was taken back
+  int reopened_ = 0, inVain_ = 0;      // times that it was opened, and the last that were no use
   std::int64_t stuck_ = 0;             // failures since then
   std::size_t window_ = kFirstWindow;  // choices of which some are undone when it is opened next
   bool closing_ = false;               // nothing grows any more

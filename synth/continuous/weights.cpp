@@ -23,7 +23,7 @@ constexpr double kUnseenShare = 0.02;
 /// Trial results of a round, whose shares are averaged: a large one varies less by chance.
 constexpr int kTrials = 2;
 constexpr std::size_t kLargeTrial = 20'000;  // vertices, of which one is enough
-/// Failures of a trial that is grown: one that goes on for long tells nothing.
+/// Failures of a trial that is grown: one that goes on for long says nothing.
 constexpr std::int64_t kGrownTrial = 60;
 /// Shares that are this near to those wanted need no further round.
 constexpr double kLearned = 1.2;
