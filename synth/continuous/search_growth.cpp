@@ -19,7 +19,7 @@ constexpr int kReport = 64;
 /// share of what should grow is enough.
 constexpr std::size_t kFirstWindow = 4, kWiden = 4;
 /// How often a result that has closed too early is opened again, and how often without more growth.
-constexpr int kReopenings = 60, kMostInVain = 8;
+constexpr int kReopenings = 200, kMostInVain = 24;
 /// Failures without more that is built than before after which more is undone than one choice.
 constexpr std::int64_t kStuck = 12;
 constexpr double kFullyGrown = 0.9;
