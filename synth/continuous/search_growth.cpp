@@ -220,7 +220,7 @@ class Grower {
     if (built_ > mostBuilt_) window_ = kFirstWindow;
     mostBuilt_ = std::max(mostBuilt_, built_);
     const std::size_t most = std::min(window_, before - 1);
-    window_ = kWiden * most;
+    window_ = most < window_ ? kFirstWindow : kWiden * window_;
     const std::size_t some = 1 + random_.below(static_cast<std::uint32_t>(most), draw_++, 4);
     takingBack([&] {
       search_.takeBackTo(before - some);
