@@ -6,6 +6,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <map>
@@ -124,12 +125,6 @@ class Finder {
   const PlaneSets& planes_;
 };
 
-/// A vertex on a line: one of its canonical rays.
-struct OnLine {
-  std::uint64_t line;
-  std::uint32_t vertex, ray;
-};
-
 }  // namespace
 
 Arrangement::Arrangement(const PlaneSets& planes, const Centrals& centrals,
@@ -197,47 +192,42 @@ Arrangement::Level Arrangement::level(const ExactPoint& p, std::size_t family) c
 }
 
 void Arrangement::joinLines(const Progress& progress) {
-  // A line is known by its first two families and their planes: 2 * (5 + 27) bits at most, and
-  // offsets have fewer than 2^26 planes. Along a line, the order of vertices is their order along
-  // the canonical one of its two directions.
-  std::vector<std::size_t> start(points_.size() + 1);
-  std::vector<std::uint32_t> forward(kinds_.size());
-  for (std::size_t k = 0; k < kinds_.size(); ++k)
-    forward[k] = static_cast<std::uint32_t>(kinds_[k]->rays.size() / 2);
-  for (std::size_t v = 0; v < points_.size(); ++v) start[v + 1] = start[v] + forward[kind_[v]];
-  std::vector<OnLine> entries(start.back());
-  LoopProgress loop(progress.part(0, 0.5), "joining lines", points_.size());
-  parallelFor(0, points_.size(), 1024, [&](std::size_t from, std::size_t to) {
-    std::uint64_t plane[kMostFamilies] = {};
-    for (std::size_t v = from; v < to; ++v) {
-      const Central& central = *kinds_[kind_[v]];
-      forEachFamily(central.families, [&](int f) {
-        plane[f] = static_cast<std::uint64_t>(level(points_[v], f).plane);
-      });
-      OnLine* out = entries.data() + start[v];
-      for (std::uint32_t r = 0; r < central.rays.size(); ++r) {
-        const Central::Ray& ray = central.rays[r];
-        if (!isCanonical(ray.direction)) continue;
-        const auto a = static_cast<std::uint64_t>(__builtin_ctz(ray.on));
-        const auto b = static_cast<std::uint64_t>(__builtin_ctz(ray.on & (ray.on - 1)));
-        *out++ = {((a * kMostFamilies + b) << 54) | (plane[a] << 27) | plane[b],
-                  static_cast<std::uint32_t>(v), r};
-      }
+  // A line is known by its first two families and their planes, so it has a place in a table of
+  // all pairs of planes. Along a line the order of vertices is their order along the canonical one
+  // of its two directions: each one is joined to the last that was on its line.
+  const std::size_t families = planes_.normals.size();
+  std::vector<std::size_t> pairStart(families * families + 1);
+  for (std::size_t a = 0; a < families; ++a) {
+    for (std::size_t b = 0; b < families; ++b) {
+      const std::size_t pair = a * families + b;
+      const std::size_t lines = a < b ? planes_.offsets[a].size() * planes_.offsets[b].size() : 0;
+      pairStart[pair + 1] = pairStart[pair] + lines;
     }
-    loop.advance(to - from);
-  });
-  progress.report("joining lines", 0.5);
-  tbb::parallel_sort(entries.begin(), entries.end(), [](const OnLine& a, const OnLine& b) {
-    return a.line != b.line ? a.line < b.line : a.vertex < b.vertex;
-  });
-  progress.report("joining lines", 0.9);
+  }
+  std::vector<EdgeEnd> last(pairStart.back());
   ends_.resize(first_.back());
-  for (std::size_t n = 1; n < entries.size(); ++n) {
-    const OnLine &a = entries[n - 1], &b = entries[n];
-    if (a.line != b.line) continue;
-    const std::uint32_t back = central(b.vertex).rays[b.ray].opposite;
-    ends_[first_[a.vertex] + a.ray] = {b.vertex, back};
-    ends_[first_[b.vertex] + back] = {a.vertex, a.ray};
+  std::array<std::size_t, kMostFamilies> plane{};
+  for (std::uint32_t v = 0; v < points_.size(); ++v) {
+    if (v % 4096 == 0)
+      progress.report("joining lines",
+                      static_cast<double>(v) / static_cast<double>(points_.size()));
+    const Central& central = *kinds_[kind_[v]];
+    forEachFamily(central.families, [&](int f) {
+      plane[f] = static_cast<std::size_t>(level(points_[v], static_cast<std::size_t>(f)).plane);
+    });
+    for (std::uint32_t r = 0; r < central.rays.size(); ++r) {
+      const Central::Ray& ray = central.rays[r];
+      if (!isCanonical(ray.direction)) continue;
+      const auto a = static_cast<std::size_t>(__builtin_ctz(ray.on));
+      const auto b = static_cast<std::size_t>(__builtin_ctz(ray.on & (ray.on - 1)));
+      const std::size_t line =
+          pairStart[a * families + b] + plane[a] * planes_.offsets[b].size() + plane[b];
+      const EdgeEnd before = last[line];
+      last[line] = {v, r};
+      if (before.vertex == EdgeEnd::kNone) continue;
+      ends_[first_[before.vertex] + before.ray] = {v, ray.opposite};
+      ends_[first_[v] + ray.opposite] = before;
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include "synth/continuous/labels.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
 #include "core/loop_progress.h"
@@ -63,48 +64,64 @@ EdgeRows::EdgeRows(const std::vector<std::vector<std::uint32_t>>& edgeOf,
     : start_{0} {
   for (const int n : edges)
     start_.push_back(start_.back() + static_cast<std::uint32_t>(n + 63) / 64);
-  const std::size_t width = words();
-  std::vector<Word> single(labels * width);
+  stride_ = (words() + kBlock - 1) / kBlock * kBlock;
+  std::vector<Word> single(labels * stride_);
   for (std::size_t ray = 0; ray < edgeOf.size(); ++ray) {
     for (std::size_t l = 0; l < labels; ++l)
-      insert({single.data() + l * width + start_[ray], width - start_[ray]}, edgeOf[ray][l]);
+      insert({single.data() + l * stride_ + start_[ray], words() - start_[ray]}, edgeOf[ray][l]);
   }
   const std::size_t fours = (labels + 3) / 4;
-  fours_ = fours * 16 * width * sizeof(Word) <= kMostTable;
+  fours_ = fours * 16 * stride_ * sizeof(Word) <= kMostTable;
   if (!fours_) {
     rows_ = std::move(single);
     return;
   }
-  rows_.resize(fours * 16 * width);
+  rows_.resize(fours * 16 * stride_);
   for (std::size_t four = 0; four < fours; ++four) {
     for (std::size_t set = 1; set < 16; ++set) {
-      Word* row = rows_.data() + (four * 16 + set) * width;
+      Word* row = rows_.data() + (four * 16 + set) * stride_;
       for (std::size_t n = 0; n < 4 && four * 4 + n < labels; ++n) {
         if ((set >> n & 1) == 0) continue;
-        const Word* one = single.data() + (four * 4 + n) * width;
-        for (std::size_t w = 0; w < width; ++w) row[w] |= one[w];
+        const Word* one = single.data() + (four * 4 + n) * stride_;
+        for (std::size_t w = 0; w < words(); ++w) row[w] |= one[w];
       }
     }
   }
 }
 
 void EdgeRows::of(std::span<const Word> labels, Word* row) const {
-  const std::size_t width = words();
-  std::fill(row, row + width, 0);
-  const auto unite = [&](std::size_t at) {
-    const Word* from = rows_.data() + at * width;
-    for (std::size_t w = 0; w < width; ++w) row[w] |= from[w];
+  std::array<const Word*, kMostParts> parts;
+  std::size_t many = 0;
+  std::fill(row, row + words(), 0);
+  const auto add = [&](std::size_t at) {
+    if (many == parts.size()) {
+      unite({parts.data(), many}, row);
+      many = 0;
+    }
+    parts[many++] = rows_.data() + at * stride_;
   };
   if (!fours_) {
-    forEach(labels, unite);
-    return;
-  }
-  for (std::size_t w = 0; w < labels.size(); ++w) {
-    for (Word rest = labels[w]; rest != 0;) {
-      const int four = std::countr_zero(rest) / 4;
-      unite((w * 16 + static_cast<std::size_t>(four)) * 16 + (rest >> (4 * four) & 15));
-      rest &= ~(Word{15} << (4 * four));
+    forEach(labels, add);
+  } else {
+    for (std::size_t w = 0; w < labels.size(); ++w) {
+      for (Word rest = labels[w]; rest != 0;) {
+        const int four = std::countr_zero(rest) / 4;
+        add((w * 16 + static_cast<std::size_t>(four)) * 16 + (rest >> (4 * four) & 15));
+        rest &= ~(Word{15} << (4 * four));
+      }
     }
+  }
+  unite({parts.data(), many}, row);
+}
+
+/// Adds rows of the table to a row: block by block, so that sums stay in registers.
+void EdgeRows::unite(std::span<const Word* const> parts, Word* row) const {
+  const std::size_t width = words();
+  for (std::size_t from = 0; from < width; from += kBlock) {
+    std::array<Word, kBlock> sum{};
+    for (const Word* part : parts)
+      for (std::size_t w = 0; w < kBlock; ++w) sum[w] |= part[from + w];
+    for (std::size_t w = 0; w < std::min(kBlock, width - from); ++w) row[from + w] |= sum[w];
   }
 }
 

@@ -36,7 +36,12 @@ class EdgeRows {
 
  private:
   static constexpr std::size_t kMostTable = std::size_t{1} << 19;
+  static constexpr std::size_t kBlock = 4;       // words that are united at once
+  static constexpr std::size_t kMostParts = 64;  // rows
+  void unite(std::span<const Word* const> parts, Word* row) const;
+
   std::vector<std::uint32_t> start_;
+  std::size_t stride_ = 0;  // of rows, in words: whole blocks
   bool fours_ = false;
   std::vector<Word> rows_;  // for each four labels their 16 subsets' rows, or one for each label
 };

@@ -12,6 +12,9 @@
 namespace exemplar::continuous {
 namespace {
 
+/// In `Marks::saved`: while changes are undone, whether a vertex has none left.
+constexpr std::uint32_t kUndone = 0xFFFFFFFFu;
+
 /// A number for a vertex that depends only on where it is.
 std::uint64_t placeOf(const ExactPoint& p) {
   std::uint64_t h = static_cast<std::uint64_t>(p.d);
@@ -108,16 +111,21 @@ void Search::set(std::uint32_t v, const Word* labels) {
 
 void Search::undo(std::size_t trail) {
   const std::size_t words = domains_.words();
-  while (trailVertices_.size() > trail) {
-    const std::uint32_t v = trailVertices_.back();
-    trailVertices_.pop_back();
-    const std::size_t from = trailWords_.size() - words;
-    std::copy_n(trailWords_.data() + from, words, domains_[v].begin());
-    trailWords_.resize(from);
-    rowOf(v, edgesOf(v));
+  for (std::size_t n = trailVertices_.size(); n-- > trail;) {
+    const std::uint32_t v = trailVertices_[n];
+    std::copy_n(trailWords_.data() + n * words, words, domains_[v].begin());
+    marks_.saved[v] = kUndone;
+  }
+  // A vertex may have several records; it needs one row.
+  for (std::size_t n = trail; n < trailVertices_.size(); ++n) {
+    const std::uint32_t v = trailVertices_[n];
+    if (marks_.saved[v] != kUndone) continue;
     marks_.saved[v] = 0;
+    rowOf(v, edgesOf(v));
     if (undone_) undone_->push_back(v);
   }
+  trailVertices_.resize(trail);
+  trailWords_.resize(trail * words);
 }
 
 /// Takes the labels of `v` that have an edge label outside of `edges` along a ray; `edges` are
@@ -206,11 +214,18 @@ bool Search::begin(std::span<const std::uint32_t> vertices, std::uint32_t region
   trailWords_.clear();
   choices_.clear();
   queue_.clear();
+  // Most vertices of a class have the same domain as the last one of it, and so the same row.
+  std::vector<std::uint32_t> lastOf(puzzle_.classes.size(), EdgeEnd::kNone);
   for (const std::uint32_t v : vertices_) {
     marks_.region[v] = region_;
     marks_.saved[v] = 0;
     marks_.queued[v] = 0;
-    rowOf(v, edgesOf(v));
+    std::uint32_t& last = lastOf[puzzle_.arrangement.kind(v)];
+    if (last != EdgeEnd::kNone && std::ranges::equal(domains_[v], domains_[last]))
+      std::copy_n(edgesOf(last), rowsOf(v).words(), edgesOf(v));
+    else
+      rowOf(v, edgesOf(v));
+    last = v;
   }
   bool consistent = true;
   for (const std::uint32_t v : vertices_) {
@@ -223,7 +238,15 @@ bool Search::begin(std::span<const std::uint32_t> vertices, std::uint32_t region
     queue_.clear();
     return false;
   }
-  return propagate();
+  consistent = propagate();
+  begun_ = trailVertices_.size();
+  return consistent;
+}
+
+void Search::again() {
+  undo(begun_);
+  choices_.clear();
+  ++epoch_;
 }
 
 double Search::weight(std::uint32_t v, std::uint32_t figure) const {

@@ -112,8 +112,11 @@ class Search {
   /// around them; false where one becomes empty. `region` is a number above 0 that no other search
   /// on the marks has used.
   bool begin(std::span<const std::uint32_t> vertices, std::uint32_t region);
-  /// After `begin`: gives each of the vertices one label, in their order. After `Spent` and
-  /// `Nothing` the domains are what they were after `begin`. Throws `Cancelled`.
+  /// Makes the domains what they were after `begin`, which takes what they have changed since. Only
+  /// where nothing else has changed them.
+  void again();
+  /// After `begin` or `again`: gives each of the vertices one label, in their order. After `Spent`
+  /// and `Nothing` the domains are what they were after `begin`. Throws `Cancelled`.
   Found run(const Random& random, std::int64_t budget, const Progress& progress = {});
   /// The same in an order in which what is built grows from seeds: a vertex at random among those
   /// next to what is built, until nothing can grow; then all else stays as empty as it can.
@@ -156,6 +159,7 @@ class Search {
   Marks& marks_;
   std::span<const std::uint32_t> vertices_;
   std::uint32_t region_ = 0, epoch_ = 0;
+  std::size_t begun_ = 0;  // of the trail
   std::vector<std::uint32_t> queue_;
   std::vector<Choice> choices_;
   std::vector<std::uint32_t> trailVertices_;

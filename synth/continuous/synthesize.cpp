@@ -291,10 +291,6 @@ class Synthesis {
       growth->seeds = std::max(1, static_cast<int>(std::lround(options_.groups * room)));
       options.growth = &*growth;
     }
-    Search::Marks marks(pilot);
-    const std::vector<double> equal(puzzle.figures.size(), 1);
-    Search search(pilot, equal, pilot.domains, marks);
-    search.begin(vertices, 1);
     learnWeights(weights, pilot, pilot.domains, vertices, classes_, random, options, progress);
   }
 
@@ -324,10 +320,13 @@ class Synthesis {
     Search search(puzzle, weights_, puzzle.domains, marks);
     if (!search.begin(vertices_, 1)) return explain(puzzle, open, demands);
     learn(puzzle, puzzle.domains, progress.part(0, 0.4));
-    weights_ = classWeights_->weights();
-    if (options_.mirror.any()) restrictToHalf(puzzle, open);
+    std::ranges::copy(classWeights_->weights(), weights_.begin());
+    if (options_.mirror.any()) {
+      restrictToHalf(puzzle, open);
+      if (!search.begin(vertices_, 2)) return explain(puzzle, open, demands);
+    }
     if (!options_.blocksOnly) {
-      const Found found = makeWhole(puzzle, allowed, marks, progress.part(0.4, 0.7));
+      const Found found = makeWhole(puzzle, allowed, search, progress.part(0.4, 0.7));
       if (found == Found::Nothing) return explain(puzzle, open, demands);
       if (found == Found::All) return;
     }
@@ -346,23 +345,20 @@ class Synthesis {
     } else {
       result_.statistics.whole = true;
     }
-    tidy(puzzle, allowed);
+    tidy(puzzle, allowed, puzzle.domains);
   }
 
   /// Makes results in one pass until one has about the shares that are wanted, or the nearest one
   /// of a few; weights are adapted after each.
-  /// The search looks at `weights_`, which stay where they are.
-  Found makeWhole(Puzzle& puzzle, const Domains& allowed, Search::Marks& marks,
+  /// The search, which has begun, looks at `weights_`, which stay where they are.
+  Found makeWhole(Puzzle& puzzle, const Domains& allowed, Search& search,
                   const Progress& progress) {
     ContinuousStatistics& s = result_.statistics;
-    const std::int64_t budget = options_.budget > 0
-                                    ? options_.budget
-                                    : 1000 + static_cast<std::int64_t>(vertices_.size()) / 10;
-    Search search(puzzle, weights_, puzzle.domains, marks);
+    const auto most = static_cast<std::int64_t>(vertices_.size()) / 10;
+    const std::int64_t budget = options_.budget > 0 ? options_.budget
+                                : growth_           ? 4 * kQuickGrowth
+                                                    : 1000 + most;
     if (guide_) search.setGuide(&*guide_);
-    std::uint32_t region = 2;
-    if (!search.begin(vertices_, region)) return Found::Nothing;
-    const Domains consistent = puzzle.domains;
     // Where results are guided, they are as full as the guide says.
     const int wanted = guide_ || options_.learning == 0 ? 1 : kResults;
     std::optional<Domains> best;
@@ -372,15 +368,12 @@ class Synthesis {
     // What is nearly empty, or far too full, is quickly made again.
     const auto enough = [&] { return made >= (nearest > kFar ? 3 * wanted : wanted); };
     while (!enough() && (quick > 0 || (made == 0 && spent < options_.attempts))) {
-      if (s.attempts > 0) {
-        puzzle.domains = consistent;
-        search.begin(vertices_, ++region);
-      }
+      search.again();
       const Random random = random_.fork(static_cast<std::uint64_t>(s.attempts++));
       const double share = 1.0 / (kQuickAttempts + options_.attempts + wanted);
       const Progress part =
           progress.part(std::min(1.0, share * (s.attempts - 1)), std::min(1.0, share * s.attempts));
-      const std::int64_t failures = quick > 0 ? kQuickBudget : budget;
+      const std::int64_t failures = quick == 0 ? budget : growth_ ? kQuickGrowth : kQuickBudget;
       const Found found = growth_ ? search.grow(*growth_, random, failures, part)
                                   : search.run(random, failures, part);
       s.choices = search.counts().choices;
@@ -391,18 +384,20 @@ class Synthesis {
         continue;
       }
       ++made;
-      tidy(puzzle, allowed);
-      const Shares shares = sharesIn(puzzle, puzzle.domains, inner_, classes_);
+      Domains labels = puzzle.domains;
+      tidy(puzzle, allowed, labels);
+      const Shares shares = sharesIn(puzzle, labels, inner_, classes_);
       const double distance = classWeights_->distance(shares);
       if (!best || distance < nearest) {
         nearest = distance;
-        best = puzzle.domains;
+        best = std::move(labels);
         pieces = {s.floating, s.groups};
       }
       if (nearest <= kNear) break;
       classWeights_->adapt(shares, inner_.size());
       std::ranges::copy(classWeights_->weights(), weights_.begin());
     }
+    search.again();
     if (!best) return Found::Spent;
     puzzle.domains = std::move(*best);
     std::tie(s.floating, s.groups) = pieces;
@@ -427,15 +422,14 @@ class Synthesis {
   }
 
   /// Completes a result of the vertices that were searched, and takes from it what may not be.
-  void tidy(Puzzle& puzzle, const Domains& allowed) {
-    completeImages(puzzle.domains);
+  void tidy(const Puzzle& puzzle, const Domains& allowed, Domains& labels) {
+    completeImages(labels);
     ContinuousStatistics& s = result_.statistics;
     if (grounded_) {
-      s.floating =
-          removeFloating(puzzle, allowed, inner_, example_.ground->substance, puzzle.domains);
+      s.floating = removeFloating(puzzle, allowed, inner_, example_.ground->substance, labels);
     }
     if (growth_) {
-      s.groups = keepLargest(puzzle, allowed, inner_, *growth_, options_.groups, puzzle.domains);
+      s.groups = keepLargest(puzzle, allowed, inner_, *growth_, options_.groups, labels);
     }
   }
 
@@ -525,10 +519,10 @@ class Synthesis {
   static constexpr std::int64_t kConflicts = 300'000;
   /// Results of which the nearest to the wanted shares is taken, and how near is near enough.
   static constexpr int kResults = 4;
-  static constexpr double kNear = 1.4, kFar = 4;
+  static constexpr double kNear = 1.5, kFar = 4;
   /// Attempts of few failures before the long ones: most results need none, or a great many.
   static constexpr int kQuickAttempts = 12;
-  static constexpr std::int64_t kQuickBudget = 200;
+  static constexpr std::int64_t kQuickBudget = 200, kQuickGrowth = 400;
   /// Spacings beyond an open side: enough that its end has no influence on what is there.
   static constexpr std::int64_t kMargin = 3;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "synth/continuous/grounding.h"
 
@@ -22,6 +23,8 @@ constexpr double kUnseenShare = 0.02;
 /// Trial results of a round, whose shares are averaged: a large one varies less by chance.
 constexpr int kTrials = 2;
 constexpr std::size_t kLargeTrial = 20'000;  // vertices, of which one is enough
+/// Failures of a trial that is grown: one that goes on for long says nothing.
+constexpr std::int64_t kGrownTrial = 60;
 /// Shares that are this near to those wanted need no further round.
 constexpr double kLearned = 1.2;
 
@@ -129,26 +132,31 @@ void learnWeights(ClassWeights& weights, const Puzzle& puzzle, const Domains& co
   ClassWeights best = weights;
   double nearest = std::numeric_limits<double>::infinity();
   Domains domains = consistent;
+  std::vector<double> current = weights.weights();
   Search::Marks marks(puzzle);
+  Search search(puzzle, current, domains, marks);
+  if (!search.begin(vertices, 1)) return;
   const int trials = vertices.size() > kLargeTrial ? 1 : kTrials;
+  const auto budget =
+      options.growth ? kGrownTrial : 100 + static_cast<std::int64_t>(vertices.size()) / 50;
+  std::optional<Domains> grounded;
   for (int round = 0; round < options.rounds && nearest > kLearned; ++round) {
     progress.report("learning weights", static_cast<double>(round) / options.rounds);
-    const std::vector<double> current = weights.weights();
+    std::ranges::copy(weights.weights(), current.begin());
     Shares shares{};
     int succeeded = 0;
     for (int trial = 0; trial < trials; ++trial) {
-      domains = consistent;
-      Search search(puzzle, current, domains, marks);
-      const auto number = static_cast<std::uint64_t>(round * trials + trial);
-      if (!search.begin(vertices, static_cast<std::uint32_t>(number) + 1)) continue;
-      const auto budget = 100 + static_cast<std::int64_t>(vertices.size()) / 50;
-      const Random draws = random.fork(500 + number);
+      search.again();
+      const Random draws = random.fork(500 + static_cast<std::uint64_t>(round * trials + trial));
       const Found found =
           options.growth ? search.grow(*options.growth, draws, budget) : search.run(draws, budget);
       if (found != Found::All) continue;
       ++succeeded;
-      if (options.ground) removeFloating(puzzle, consistent, vertices, *options.ground, domains);
-      const Shares made = sharesIn(puzzle, domains, vertices, classes);
+      if (options.ground) {
+        grounded = domains;
+        removeFloating(puzzle, consistent, vertices, *options.ground, *grounded);
+      }
+      const Shares made = sharesIn(puzzle, grounded ? *grounded : domains, vertices, classes);
       for (int c = 0; c < kFigureClasses; ++c) shares[c] += made[c];
     }
     if (succeeded == 0) continue;

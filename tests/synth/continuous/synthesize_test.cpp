@@ -8,11 +8,13 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_health.h"
 #include "synth/continuous/blocks.h"
@@ -340,8 +342,9 @@ struct Small {
   Puzzle puzzle;
   std::vector<std::uint32_t> vertices;
 
-  Small(const std::string& name, const Vec3i& size)
-      : solids(solidsOf(name)),
+  Small(const std::string& name, const Vec3i& size) : Small(solidsOf(name), size) {}
+  Small(Solids example, const Vec3i& size)
+      : solids(std::move(example)),
         lattice(latticeOf(solids)),
         planes(planesIn(lattice, windowOf(lattice, size))),
         centrals(planes.normals),
@@ -412,6 +415,49 @@ TEST(Search, PropagationKeepsEverySolution) {
     }
     // All solutions are found by blocking none: a search with any seed finds one of them.
     EXPECT_EQ(search.run(Random(1), 100), Found::All);
+  }
+}
+
+/// Nothing is chosen twice in the same place: where one label is far likelier than all others and
+/// leads to a contradiction, the search goes on with another one, and ends with a result.
+TEST(Search, RemovesLabelsThatFailed) {
+  const std::string path = std::string(EXEMPLAR_SOURCE_DIR) + "/scenes/pentagons.toml";
+  const Small small(readSolidScene(readFile(path), path).solids, {8, 8, 6});
+  std::int64_t failures = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Random random(seed);
+    std::vector<double> weights;
+    for (std::size_t f = 0; f < small.figures.size(); ++f)
+      weights.push_back(std::pow(10.0, random.below(13, f)));
+    Domains domains = small.puzzle.domains;
+    Search::Marks marks(small.puzzle);
+    Search search(small.puzzle, weights, domains, marks);
+    ASSERT_TRUE(search.begin(small.vertices, 1));
+    EXPECT_EQ(search.run(random, 1000), Found::All) << seed;
+    failures += search.counts().failures;
+  }
+  EXPECT_GT(failures, 5);
+}
+
+/// Attempts begin from the same domains, whatever the last one has left.
+TEST(Search, BeginsAgainWhereItBegan) {
+  const Small small("pyramid", {3, 3, 2});
+  Domains domains = small.puzzle.domains;
+  Search::Marks marks(small.puzzle);
+  const std::vector<double> weights(small.figures.size(), 1);
+  Search search(small.puzzle, weights, domains, marks);
+  ASSERT_TRUE(search.begin(small.vertices, 1));
+  const Domains begun = domains;
+  const std::vector<Word> edges = marks.edges;
+  const Growth growth = growthOf(small.puzzle, std::nullopt);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Found found =
+        seed % 2 ? search.run(Random(seed), 1000) : search.grow(growth, Random(seed), 1000);
+    ASSERT_EQ(found, Found::All) << seed;
+    EXPECT_NE(domains, begun);
+    search.again();
+    EXPECT_EQ(domains, begun);
+    EXPECT_EQ(marks.edges, edges);
   }
 }
 
