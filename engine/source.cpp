@@ -72,9 +72,10 @@ bool holdsLabels(const std::filesystem::path& path) {
 }  // namespace
 
 Source::Source(const std::filesystem::path& path) : path_(path) {
+  // A folder of that name hides no scene; worlds are called after what they are made of.
   std::error_code error;
   if (path.empty() || path.has_extension() || path.has_parent_path() ||
-      std::filesystem::exists(path, error))
+      (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error)))
     return;
   const std::vector<std::string> scenes = bundledScenes();
   if (std::ranges::find(scenes, path.string()) != scenes.end()) path_ += ".toml";

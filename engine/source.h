@@ -31,8 +31,8 @@ class Source {
       std::variant<std::monostate, std::string, TriangleMesh, DistanceField, LabelGrid, HeightMap>;
 
   Source() = default;
-  /// A file, or a bundled scene: "chainmail", which counts as "chainmail.toml" where no file is
-  /// called so.
+  /// A file, or a bundled scene: "chainmail", which counts as "chainmail.toml" where no file
+  /// (a folder is none) is called so.
   Source(const std::filesystem::path& path);
   Source(const char* path) : Source(std::filesystem::path(path)) {}
   Source(const std::string& path) : Source(std::filesystem::path(path)) {}

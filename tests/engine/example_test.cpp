@@ -12,6 +12,7 @@
 #include "core/file.h"
 #include "mesh/mesh_file.h"
 #include "tests/engine/examples.h"
+#include "tests/temporary_files.h"
 
 namespace exemplar {
 namespace {
@@ -22,6 +23,20 @@ using testing::ThrowsMessage;
 
 fs::path scene(const std::string& name) {
   return fs::path(EXEMPLAR_SOURCE_DIR) / "scenes" / (name + ".toml");
+}
+
+TEST(Source, IsAScenesNameWhereAFolderIsCalledSo) {
+  const test::TemporaryFolder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder / "");
+  fs::create_directory("castle");
+  setenv("EXEMPLAR_SCENES", EXEMPLAR_SOURCE_DIR "/scenes", 1);
+  const fs::path scene = Source("castle").path();
+  test::writeBytes("balls", "no scene");
+  const fs::path file = Source("balls").path();
+  fs::current_path(before);
+  EXPECT_EQ(scene, "castle.toml");
+  EXPECT_EQ(file, "balls");
 }
 
 TEST(ReadExample, AMeshIsTheSameFromAFileFromBytesAndFromMemory) {
