@@ -39,6 +39,7 @@ function(exemplar_library room)
     "^((nlohmann_json|Eigen3)::.+)$" "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(exemplar_${room} PUBLIC ${ARG_LINK}
     PRIVATE $<BUILD_INTERFACE:exemplar_build_options> ${ARG_PRIVATE})
+  exemplar_precompile(exemplar_${room} LIKE exemplar_precompiled_library)
   set_property(GLOBAL APPEND PROPERTY EXEMPLAR_LIBRARIES ${room})
 endfunction()
 
@@ -51,6 +52,7 @@ function(exemplar_test room)
     GTest::gmock GTest::gtest_main)
   # A third of the time to build tests goes into making them fast; the work is in the libraries.
   target_compile_options(${room}_test PRIVATE $<$<CONFIG:Release>:-O1>)
+  exemplar_precompile(${room}_test LIKE exemplar_precompiled_test)
   gtest_discover_tests(${room}_test DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
 endfunction()
 
