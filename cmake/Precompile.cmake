@@ -1,6 +1,6 @@
 # Headers that nearly every source includes, parsed once for all of them: a tenth off the time that
 # the libraries take to build, a fifth off that of the tests. Sources include what they use all the
-# same, and are built without it by every preset but `release`. With ccache it is better left off:
+# same, and every preset builds without it. With ccache it is better left off:
 # what is precompiled in one folder is not found again by another.
 option(EXEMPLAR_PRECOMPILE "Precompile the headers that nearly every source includes" OFF)
 if(NOT EXEMPLAR_PRECOMPILE)
