@@ -319,7 +319,7 @@ class Outlets {
 
   /// Lowers the land beside water that came to a level below what lay there: no cliffs.
   void lowerShores() {
-    if (!water_->before.sameSize(heights_)) return;
+    if (water_->before.empty()) return;
     flood([&](std::uint32_t n, std::uint32_t) { return heights_[n]; }, [](std::uint32_t) {});
     std::vector<std::uint32_t> lowered;
     for (std::uint32_t s = 0; s < heights_.count(); ++s)
@@ -614,6 +614,8 @@ OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,
                       const OutletOptions& options, const WaterBodies* water,
                       const Progress& progress) {
   assert(options.bank > 0);
+  assert(!water || water->bodies.sameSize(heights));
+  assert(!water || water->before.empty() || water->before.sameSize(heights));
   return Outlets(heights, held, options, water, progress).run();
 }
 

@@ -59,7 +59,8 @@ struct OutletsCut {
 ///
 /// Bodies of water (may be null) stay flat: the sea takes all water, and each lake gets one outlet,
 /// which begins at its level. Lakes that would run up into the next one come to one level with it,
-/// and shores come down with water that does.
+/// and shores come down with water that does, and with water that lies lower than `before`, which
+/// is of the heights' size or empty: then shores stay.
 OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,
                       const OutletOptions& options = {}, const WaterBodies* water = nullptr,
                       const Progress& progress = {});
