@@ -624,6 +624,7 @@ class Outlets {
       const std::uint32_t s = queue.pop();
       forNeighbors(s, [&](std::uint32_t n, int d) {
         if (lowered[n] > 0 || !(toward_[n] < kUnseen) || isHeld(n) || isKept(n)) return true;
+        if (hasGaps_ && std::isnan(heights_[n])) return true;
         const bool straight = kSteps[d].x == 0 || kSteps[d].y == 0;
         const float by = lowered[s] - bank * (straight ? 1.0f : 1.41421356f);
         // Above what it falls to, so that no way to the cut is closed.
