@@ -29,39 +29,41 @@ constexpr float kShallow = 0.25f;
 constexpr std::array<float, 6> kDeepCuts{0.03f, 0.06f, 0.12f, 0.25f, 0.5f, 1.0f};
 
 /// Samples in the order of their heights, first come first served among about equal ones: a queue
-/// of 2^18 buckets, in constant time.
+/// of 2^18 buckets, in constant time. One that is empty may be used again.
 class HeightQueue {
  public:
-  HeightQueue(std::size_t samples, float least, float most)
-      : least_(least),
-        scale_(most > least ? static_cast<float>(kBuckets - 1) / (most - least) : 0),
-        next_(samples),
-        first_(kBuckets, kNone),
-        last_(kBuckets, kNone) {}
+  explicit HeightQueue(std::size_t samples) : next_(samples), buckets_(kBuckets) {}
+  /// The heights to come, of an empty queue.
+  void setRange(float least, float most) {
+    least_ = least;
+    scale_ = most > least ? static_cast<float>(kBuckets - 1) / (most - least) : 0;
+  }
 
   void push(std::uint32_t sample, float height) {
     const float place = (height - least_) * scale_;
     const auto bucket =
         static_cast<std::uint32_t>(std::clamp(place, 0.0f, static_cast<float>(kBuckets - 1)));
+    Bucket& of = buckets_[bucket];
     next_[sample] = kNone;
-    if (first_[bucket] == kNone) {
-      first_[bucket] = sample;
+    if (of.first == kNone) {
+      of.first = sample;
       fine_[bucket >> 6] |= std::uint64_t{1} << (bucket & 63);
       middle_[bucket >> 12] |= std::uint64_t{1} << ((bucket >> 6) & 63);
       coarse_ |= std::uint64_t{1} << (bucket >> 12);
     } else {
-      next_[last_[bucket]] = sample;
+      next_[of.last] = sample;
     }
-    last_[bucket] = sample;
+    of.last = sample;
   }
   bool empty() const { return coarse_ == 0; }
   std::uint32_t pop() {
     const auto c = static_cast<std::uint32_t>(std::countr_zero(coarse_));
     const auto m = (c << 6) | static_cast<std::uint32_t>(std::countr_zero(middle_[c]));
     const auto bucket = (m << 6) | static_cast<std::uint32_t>(std::countr_zero(fine_[m]));
-    const std::uint32_t sample = first_[bucket];
-    first_[bucket] = next_[sample];
-    if (first_[bucket] == kNone) {
+    Bucket& of = buckets_[bucket];
+    const std::uint32_t sample = of.first;
+    of.first = next_[sample];
+    if (of.first == kNone) {
       fine_[m] &= fine_[m] - 1;
       if (fine_[m] == 0) middle_[c] &= middle_[c] - 1;
       if (middle_[c] == 0) coarse_ &= coarse_ - 1;
@@ -71,8 +73,12 @@ class HeightQueue {
 
  private:
   static constexpr std::uint32_t kBuckets = 1u << 18, kNone = 0xffffffffu;
-  float least_, scale_;
-  std::vector<std::uint32_t> next_, first_, last_;
+  struct Bucket {
+    std::uint32_t first = kNone, last = kNone;
+  };
+  float least_ = 0, scale_ = 0;
+  std::vector<std::uint32_t> next_;
+  std::vector<Bucket> buckets_;
   std::array<std::uint64_t, kBuckets / 64> fine_{};
   std::array<std::uint64_t, kBuckets / 4096> middle_{};
   std::uint64_t coarse_ = 0;
@@ -111,10 +117,15 @@ class Outlets {
           const WaterBodies* water, const Progress& progress)
       : heights_(heights), held_(held), options_(options), water_(water), progress_(progress) {
     for (const float h : heights.values()) {
-      if (std::isnan(h)) continue;
+      if (std::isnan(h)) {
+        hasGaps_ = true;
+        continue;
+      }
       least_ = std::min(least_, h);
       most_ = std::max(most_, h);
     }
+    for (std::size_t d = 0; d < kSteps.size(); ++d)
+      offsets_[d] = static_cast<std::uint32_t>(kSteps[d].y * heights.width() + kSteps[d].x);
   }
 
   OutletsCut run() {
@@ -150,14 +161,38 @@ class Outlets {
     return true;
   }
 
-  bool isOutlet(std::uint32_t sample) const {
-    if (bodyOf(sample) == kSeaBody) return true;
-    if (!options_.outlets.empty()) return options_.outlets[sample] != 0;
+  /// Calls `visit(neighbor, direction)` for all neighbors, as `neighbor` has them, until it returns
+  /// false.
+  template <class Visit>
+  void forNeighbors(std::uint32_t sample, const Visit& visit) const {
+    const auto width = static_cast<std::uint32_t>(heights_.width());
+    const auto height = static_cast<std::uint32_t>(heights_.height());
+    const std::uint32_t y = sample / width, x = sample - y * width;
+    if (x - 1 < width - 2 && y - 1 < height - 2 && width > 2 && height > 2) {
+      for (int d = 0; d < 8; ++d)
+        if (!visit(sample + offsets_[static_cast<std::size_t>(d)], d)) return;
+      return;
+    }
     for (int d = 0; d < 8; ++d) {
       std::uint32_t n;
-      if (!neighbor(sample, d, n) || std::isnan(heights_[n])) return true;
+      if (neighbor(sample, d, n) && !visit(n, d)) return;
     }
-    return false;
+  }
+
+  /// Whether water leaves the sample at (x, y).
+  bool isOutlet(std::uint32_t sample, int x, int y) const {
+    if (bodyOf(sample) == kSeaBody) return true;
+    if (!options_.outlets.empty()) return options_.outlets[sample] != 0;
+    if (!options_.wrapsX && (x == 0 || x + 1 == heights_.width())) return true;
+    if (!options_.wrapsY && (y == 0 || y + 1 == heights_.height())) return true;
+    bool beside = false;
+    if (hasGaps_) {
+      forNeighbors(sample, [&](std::uint32_t n, int) {
+        beside |= std::isnan(heights_[n]);
+        return !beside;
+      });
+    }
+    return beside;
   }
 
   /// Visits every sample from the outlets upwards: `enter(sample, from)` says the height by which
@@ -165,25 +200,36 @@ class Outlets {
   template <class Enter, class Leave>
   void flood(const Enter& enter, const Leave& leave) {
     if (options_.outlets.empty()) {
-      floodBy(HeightQueue(heights_.count(), least_, most_), enter, leave);
+      floodBy(queueOf(least_, most_), enter, leave);
     } else {
       // Ways out are few and may fall by next to nothing.
-      floodBy(ExactQueue(), enter, leave);
+      ExactQueue queue;
+      floodBy(queue, enter, leave);
     }
   }
 
+  /// The empty queue, for heights within a range.
+  HeightQueue& queueOf(float least, float most) {
+    if (!queue_) queue_.emplace(heights_.count());
+    queue_->setRange(least, most);
+    return *queue_;
+  }
+
   template <class Queue, class Enter, class Leave>
-  void floodBy(Queue queue, const Enter& enter, const Leave& leave) {
+  void floodBy(Queue& queue, const Enter& enter, const Leave& leave) {
     const std::size_t count = heights_.count();
     toward_.assign(count, kUnseen);
     bool any = false;
-    for (std::uint32_t s = 0; s < count; ++s) {
-      if (std::isnan(heights_[s])) {
-        toward_[s] = kOutlet;
-      } else if (isOutlet(s)) {
-        toward_[s] = kOutlet;
-        queue.push(s, heights_[s]);
-        any = true;
+    std::uint32_t at = 0;
+    for (int y = 0; y < heights_.height(); ++y) {
+      for (int x = 0; x < heights_.width(); ++x, ++at) {
+        if (std::isnan(heights_[at])) {
+          toward_[at] = kOutlet;
+        } else if (isOutlet(at, x, y)) {
+          toward_[at] = kOutlet;
+          queue.push(at, heights_[at]);
+          any = true;
+        }
       }
     }
     if (!any) {
@@ -199,12 +245,12 @@ class Outlets {
       if ((++visits & 0xffff) == 0) progress_.check();
       const std::uint32_t s = queue.pop();
       leave(s);
-      for (int d = 0; d < 8; ++d) {
-        std::uint32_t n;
-        if (!neighbor(s, d, n) || toward_[n] != kUnseen) continue;
+      forNeighbors(s, [&](std::uint32_t n, int d) {
+        if (toward_[n] != kUnseen) return true;
         toward_[n] = static_cast<std::uint8_t>(7 - d);
         queue.push(n, enter(n, s));
-      }
+        return true;
+      });
     }
   }
 
@@ -222,12 +268,12 @@ class Outlets {
       std::vector<std::uint32_t> hollow{s};
       seen[s] = 1;
       for (std::size_t at = 0; at < hollow.size(); ++at) {
-        for (int d = 0; d < 8; ++d) {
-          std::uint32_t n;
-          if (!neighbor(hollow[at], d, n) || seen[n] || !(level[n] > heights_[n])) continue;
+        forNeighbors(hollow[at], [&](std::uint32_t n, int) {
+          if (seen[n] || !(level[n] > heights_[n])) return true;
           seen[n] = 1;
           hollow.push_back(n);
-        }
+          return true;
+        });
       }
       hollows.push_back(std::move(hollow));
     }
@@ -319,7 +365,7 @@ class Outlets {
 
   /// Lowers the land beside water that came to a level below what lay there: no cliffs.
   void lowerShores() {
-    if (!water_->before.sameSize(heights_)) return;
+    if (water_->before.empty()) return;
     flood([&](std::uint32_t n, std::uint32_t) { return heights_[n]; }, [](std::uint32_t) {});
     std::vector<std::uint32_t> lowered;
     for (std::uint32_t s = 0; s < heights_.count(); ++s)
@@ -547,11 +593,9 @@ class Outlets {
   }
 
   bool isPit(std::uint32_t s) const {
-    for (int d = 0; d < 8; ++d) {
-      std::uint32_t n;
-      if (neighbor(s, d, n) && heights_[n] < heights_[s]) return false;
-    }
-    return true;
+    bool isLowest = true;
+    forNeighbors(s, [&](std::uint32_t n, int) { return isLowest = !(heights_[n] < heights_[s]); });
+    return isLowest;
   }
 
   /// Lowers what lies beside a cut with it, by less the farther it is away: the land there keeps
@@ -572,27 +616,27 @@ class Outlets {
     }
     if (cut.empty()) return;
     // The deepest first, so that each sample is lowered once.
-    HeightQueue queue(before.size(), 0, most);
+    HeightQueue& queue = queueOf(0, most);
     for (const std::uint32_t s : cut) queue.push(s, most - lowered[s]);
     std::size_t visits = 0;
     while (!queue.empty()) {
       if ((++visits & 0xffff) == 0) progress_.check();
       const std::uint32_t s = queue.pop();
-      for (int d = 0; d < 8; ++d) {
-        std::uint32_t n;
-        if (!neighbor(s, d, n) || isHeld(n) || isKept(n)) continue;
-        if (!(toward_[n] < kUnseen) || lowered[n] > 0) continue;
+      forNeighbors(s, [&](std::uint32_t n, int d) {
+        if (lowered[n] > 0 || !(toward_[n] < kUnseen) || isHeld(n) || isKept(n)) return true;
+        if (hasGaps_ && std::isnan(heights_[n])) return true;
         const bool straight = kSteps[d].x == 0 || kSteps[d].y == 0;
         const float by = lowered[s] - bank * (straight ? 1.0f : 1.41421356f);
         // Above what it falls to, so that no way to the cut is closed.
         float to = std::max(before[n] - by, heights_[s] + rise);
         // And above water that stays.
         if (!standing_.empty()) to = std::max(to, standing_[n]);
-        if (by <= 0 || to >= heights_[n]) continue;
+        if (by <= 0 || to >= heights_[n]) return true;
         heights_[n] = to;
         lowered[n] = before[n] - to;
         queue.push(n, most - lowered[n]);
-      }
+        return true;
+      });
     }
   }
 
@@ -603,9 +647,12 @@ class Outlets {
   const Progress& progress_;
   float least_ = std::numeric_limits<float>::infinity();
   float most_ = -std::numeric_limits<float>::infinity();
-  std::vector<std::uint8_t> toward_;  // the direction back to the outlet
-  std::vector<std::uint8_t> kept_;    // 1 in hollows that stay; may be empty
-  std::vector<float> standing_;       // the level of standing water, and where it would flood
+  bool hasGaps_ = false;                  // samples without a height
+  std::array<std::uint32_t, 8> offsets_;  // of neighbors inside the map
+  std::optional<HeightQueue> queue_;      // when first wanted
+  std::vector<std::uint8_t> toward_;      // the direction back to the outlet
+  std::vector<std::uint8_t> kept_;        // 1 in hollows that stay; may be empty
+  std::vector<float> standing_;           // the level of standing water, and where it would flood
 };
 
 }  // namespace
@@ -614,6 +661,8 @@ OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,
                       const OutletOptions& options, const WaterBodies* water,
                       const Progress& progress) {
   assert(options.bank > 0);
+  assert(!water || water->bodies.sameSize(heights));
+  assert(!water || water->before.empty() || water->before.sameSize(heights));
   return Outlets(heights, held, options, water, progress).run();
 }
 

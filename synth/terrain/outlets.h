@@ -50,7 +50,7 @@ struct OutletsCut {
 /// doi:10.1016/j.cageo.2013.04.024; Soille 2004, doi:10.1029/2004WR003060; Lindsay 2016,
 /// doi:10.1002/hyp.10648), up to 1 / 262,144 of the relief. Samples where `held` (may be empty) is
 /// not 0 stay, and so may what lies behind them. NaN samples are outlets. O(samples), one thread,
-/// 10 bytes a sample. Throws `Cancelled`.
+/// 13 bytes a sample, and as much again with hollows that may stay. Throws `Cancelled`.
 ///
 /// With `outlets`, water leaves there alone. What lies below all ways to them is lifted, a hollow
 /// of which some is held is cut and not filled, and where the lowest way leads up over what is held
@@ -59,7 +59,8 @@ struct OutletsCut {
 ///
 /// Bodies of water (may be null) stay flat: the sea takes all water, and each lake gets one outlet,
 /// which begins at its level. Lakes that would run up into the next one come to one level with it,
-/// and shores come down with water that does.
+/// and shores come down with water that does, and with water that lies lower than `before`, which
+/// is of the heights' size or empty: then shores stay.
 OutletsCut cutOutlets(Grid<float>& heights, const Grid<std::uint8_t>& held,
                       const OutletOptions& options = {}, const WaterBodies* water = nullptr,
                       const Progress& progress = {});

@@ -31,7 +31,7 @@ inline constexpr std::uint32_t kSeaBody = 1, kFirstLake = 2;
 struct WaterBodies {
   Grid<std::uint32_t> bodies;
   std::uint32_t count = kFirstLake;  ///< one more than the largest number
-  Grid<float> before;                ///< the heights before they were settled
+  Grid<float> before;                ///< the heights before they were settled; may be empty
 };
 /// Makes flat what comes from water: lakes at a height that most of them reach, the sea at
 /// `seaLevel`, under which no land lies either. The sea comes to the map's border, or is where it

@@ -41,6 +41,32 @@ TEST(CutOutlets, LetsWaterRunFromEverywhere) {
   }
 }
 
+TEST(CutOutlets, ShapesBanksBesideHolesAndLeavesThem) {
+  // A pit behind a wall, and beyond that nothing is known.
+  const auto isHole = [](int x) { return x >= 30; };
+  Grid<float> heights(40, 31);
+  for (int y = 0; y < 31; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      heights(x, y) = static_cast<float>(std::abs(x - 20) < 4 && std::abs(y - 15) < 4
+                                             ? 50
+                                             : 100 + 0.1 * std::abs(y - 15) - 0.1 * x);
+      if (isHole(x)) heights(x, y) = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  const Grid<float> before = heights;
+  const OutletsCut cut = cutOutlets(heights, {}, {.fill = 0, .bank = 2});
+  EXPECT_GT(cut.deepest, 40);
+  for (int y = 0; y < 31; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      ASSERT_EQ(std::isnan(heights(x, y)), isHole(x)) << x << " " << y;
+      if (!isHole(x)) {
+        ASSERT_LE(heights(x, y), before(x, y));
+      }
+    }
+  }
+  EXPECT_LT(heights(27, 17), before(27, 17));
+}
+
 TEST(CutOutlets, LeavesLandThatDrainsAsItIs) {
   Grid<float> heights(40, 30);
   for (int y = 0; y < 30; ++y)

@@ -154,6 +154,76 @@ TEST(CutOutlets, GivesLakesInARowALevelAtWhichTheyDrain) {
   }
 }
 
+TEST(CutOutlets, LowersTheShoresOfWaterThatCameToALowerLevel) {
+  // Land that falls toward water at the border, which came down by 30.
+  constexpr float kFell = 30, kBank = 2;
+  for (const std::uint32_t body : {kSeaBody, kFirstLake}) {
+    WaterBodies water{Grid<std::uint32_t>(61, 41), body + 1, Grid<float>(61, 41)};
+    water.count = std::max(water.count, kFirstLake);
+    for (int y = 0; y < 41; ++y) {
+      for (int x = 0; x < 61; ++x) {
+        const double r = std::hypot(x - 30, y);
+        water.before(x, y) = static_cast<float>(150 + 0.1 * r);
+        if (r < 8) water.bodies(x, y) = body;
+        if (r < 8) water.before(x, y) = 150;
+      }
+    }
+    Grid<float> heights = water.before;
+    for (std::size_t s = 0; s < heights.count(); ++s)
+      if (water.bodies[s] != 0) heights[s] -= kFell;
+    EXPECT_EQ(cutOutlets(heights, {}, {.fill = 0, .bank = kBank}, &water).outlets, 0);
+    const auto lowered = [&](int x, int y) { return water.before(x, y) - heights(x, y); };
+    for (int y = 0; y < 41; ++y) {
+      for (int x = 0; x < 61; ++x) {
+        if (water.bodies(x, y) != 0) {
+          ASSERT_EQ(lowered(x, y), kFell);
+          continue;
+        }
+        // By so much less a step as banks rise, straight or over a corner: no cliff, and no more.
+        double most = 0;
+        for (int v = std::max(0, y - 1); v <= std::min(40, y + 1); ++v)
+          for (int u = std::max(0, x - 1); u <= std::min(60, x + 1); ++u)
+            if (u != x || v != y)
+              most = std::max(most, lowered(u, v) - kBank * std::hypot(u - x, v - y));
+        ASSERT_LE(lowered(x, y), most + 1e-3) << x << " " << y;
+        ASSERT_GE(lowered(x, y), most - 0.415 * kBank) << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(SettleWater, HasASeaInlandWhereItMayBe) {
+  // Basins of which one comes from the sea, under its level in part, away from the border.
+  constexpr float kLevel = 10;
+  Grid<float> rough(48, 40);
+  Grid<std::uint8_t> water(48, 40);
+  Grid<HeightOrigin> origins(48, 40);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 48; ++x) {
+      const double r = std::hypot(x - 24, y - 20);
+      if (r < 9) water(x, y) = kSea;
+      rough(x, y) = static_cast<float>(r < 9 ? 8 + 0.5 * r : 4 + r);
+      origins(x, y) = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
+    }
+  }
+  const auto settled = [&](bool inland, Grid<float>& heights) {
+    return settleWater(heights, origins, {&water, 1}, kLevel, {}, 32, inland);
+  };
+  Grid<float> sea = rough, lake = rough;
+  const WaterBodies within = settled(true, sea), without = settled(false, lake);
+  EXPECT_EQ(within.count, kFirstLake);
+  EXPECT_EQ(without.count, kFirstLake + 1);
+  EXPECT_EQ(within.bodies(24, 20), kSeaBody);
+  EXPECT_EQ(sea(24, 20), kLevel);
+  EXPECT_GE(lake(24, 20), kLevel);
+  EXPECT_EQ(within.before, rough);
+  for (std::size_t s = 0; s < rough.count(); ++s) {
+    ASSERT_EQ(within.bodies[s] == kSeaBody, without.bodies[s] == kFirstLake) << s;
+    ASSERT_EQ(sea[s], within.bodies[s] != 0 ? kLevel : rough[s]) << s;
+    ASSERT_EQ(lake[s], without.bodies[s] != 0 ? lake(24, 20) : rough[s]) << s;
+  }
+}
+
 TEST(CutOutlets, KeepsNoHollowThroughWhichLowerLandDrains) {
   // A gorge with a pond in it, and a basin above that, of this height.
   const auto gorge = [](float basin) {
