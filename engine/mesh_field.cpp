@@ -27,7 +27,8 @@ constexpr double kPanelThinness = 1.0 / 3;
 constexpr double kLong = 1.5;
 
 /// The solid that a mesh shows: closed in its box's faces, whose vertices are exactly there.
-TriangleMesh solidOf(const TriangleMesh& mesh, const Axes& cut) {
+TriangleMesh solidOf(const TriangleMesh& mesh, const Axes& cut, const Progress& progress) {
+  progress.check();
   TriangleMesh solid;
   solid.positions = mesh.positions;
   solid.triangles = mesh.triangles;
@@ -41,7 +42,9 @@ TriangleMesh solidOf(const TriangleMesh& mesh, const Axes& cut) {
       if (box.max[axis] - p[axis] <= near) p[axis] = box.max[axis];
     }
   }
+  progress.check();
   append(solid, boxOpenings(solid));
+  progress.check();
   return solid;
 }
 
@@ -66,9 +69,9 @@ std::string degrees(double angle) {
 }
 
 /// Turns a mesh straight that lies turned against its box, and says so.
-void straighten(TriangleMesh& mesh, Example& example) {
+void straighten(TriangleMesh& mesh, Example& example, const Progress& progress) {
   if (!example.reading.wanted || example.reading.align == Align::None) return;
-  const Footprint footprint = footprintOf(mesh);
+  const Footprint footprint = footprintOf(mesh, progress);
   if (footprint.straight) return;
   const int longer = longerAxis(*example.reading.wanted);
   const bool isLong = std::max(footprint.along, footprint.across) >
@@ -213,14 +216,15 @@ DistanceField sample(const TriangleMesh& solid, const Sampling& how, const Progr
 
 void sampleMesh(TriangleMesh mesh, Example& example, const Progress& progress) {
   const ReadOptions& options = example.reading;
-  straighten(mesh, example);
+  progress.check();
+  straighten(mesh, example, progress);
   const Vec3d side = boundingBox(mesh).size();
   if (side.x < kPanelThinness * side.y) example.hints.scale.x = 1;
   if (side.y < kPanelThinness * side.x) example.hints.scale.y = 1;
 
   const bool looks = options.wanted || options.holdDetail;
   const DetailSize detail =
-      looks ? detailSize(solidOf(mesh, {}), progress.part(0, 0.2)) : DetailSize{};
+      looks ? detailSize(solidOf(mesh, {}, progress), progress.part(0, 0.2)) : DetailSize{};
   const Progress rest = progress.part(looks ? 0.2 : 0, 1);
   const auto sampling = [&](const Axes& cut) {
     Sampling how;
@@ -239,12 +243,12 @@ void sampleMesh(TriangleMesh mesh, Example& example, const Progress& progress) {
     cut[axis] = cut[axis] && (!options.padding || (*options.padding)[axis] == 0);
   // Most that can go on do, so that is tried first.
   how = sampling(cut);
-  DistanceField field = sample(solidOf(mesh, cut), how, rest.part(0, cut.any() ? 0.5 : 1));
+  DistanceField field = sample(solidOf(mesh, cut, rest), how, rest.part(0, cut.any() ? 0.5 : 1));
   Axes goesOn = cut;
   for (int axis = 0; axis < 3; ++axis) goesOn[axis] = cut[axis] && looksCut(field, axis);
   if (goesOn != cut) {
     how = sampling(goesOn);
-    field = sample(solidOf(mesh, goesOn), how, rest.part(0.5, 1));
+    field = sample(solidOf(mesh, goesOn, rest), how, rest.part(0.5, 1));
   }
   example.goesOn = goesOn;
   example.padding = how.padding;
@@ -259,7 +263,7 @@ void sampleMesh(TriangleMesh mesh, Example& example, const Progress& progress) {
 DistanceField sampledMesh(const Example& example, double voxelSize, const Box3d& box,
                           const Padding& padding, const Progress& progress) {
   const bool object = example.kind == SourceKind::Mesh;
-  return meshToSdf(object ? solidOf(*example.mesh, example.goesOn) : *example.mesh,
+  return meshToSdf(object ? solidOf(*example.mesh, example.goesOn, progress) : *example.mesh,
                    {.voxelSize = voxelSize,
                     .box = box,
                     .padding = padding,

@@ -127,11 +127,13 @@ std::optional<double> angleOfFaces(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Footprint footprintOf(const TriangleMesh& mesh) {
+Footprint footprintOf(const TriangleMesh& mesh, const Progress& progress) {
   Footprint footprint;
   const std::vector<Point> points = pointsOf(mesh, boundingBox(mesh).center());
   if (points.size() < 3) return footprint;
+  progress.check();
   const std::vector<Point> hull = hullOf(points);
+  progress.check();
   const auto take = [&](double angle, bool straight) {
     const Point extents = extentsOf(hull, angle);
     footprint = {angle, extents.x, extents.y, straight};

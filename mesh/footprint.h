@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "core/progress.h"
 #include "core/turn.h"
 #include "mesh/triangle_mesh.h"
 
@@ -23,8 +24,9 @@ struct Footprint {
 /// area around their points (its sides lie along the convex hull's: Freeman and Shapira,
 /// "Determining the minimum-area encasing rectangle for an arbitrary closed curve", CACM 1975).
 /// Faces count as turned from a degree on, rectangles from three degrees on and only where the mesh
-/// fills less than four fifths of its box that way: round things are straight. O(n log n).
-Footprint footprintOf(const TriangleMesh& mesh);
+/// fills less than four fifths of its box that way: round things are straight. O(n log n). Throws
+/// `Cancelled`.
+Footprint footprintOf(const TriangleMesh& mesh, const Progress& progress = {});
 
 /// Turns a mesh.
 void turn(TriangleMesh& mesh, const Turn& by);

@@ -80,6 +80,7 @@ std::vector<std::uint32_t> firstEqual(const std::vector<Triangle>& triangles,
                                       const Progress& progress) {
   std::vector<std::pair<Triangle, std::uint32_t>> turned(triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (looksUp(t)) progress.check();
     Triangle key = triangles[t];
     std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
     turned[t] = {key, t};
@@ -87,6 +88,7 @@ std::vector<std::uint32_t> firstEqual(const std::vector<Triangle>& triangles,
   sortInParallel(turned, progress);
   std::vector<std::uint32_t> first(triangles.size());
   for (std::size_t i = 0; i < turned.size(); ++i) {
+    if (looksUp(i)) progress.check();
     const bool same = i > 0 && turned[i].first == turned[i - 1].first;
     first[turned[i].second] = same ? first[turned[i - 1].second] : turned[i].second;
   }
@@ -151,6 +153,7 @@ void matchDiagonals(const std::vector<Vec3d>& points, std::vector<Triangle>& tri
   std::vector<Triangle> different;
   std::vector<std::uint32_t> place(triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (looksUp(t)) progress.check();
     place[t] = first[t] == t ? static_cast<std::uint32_t>(different.size()) : place[first[t]];
     if (first[t] == t) different.push_back(triangles[t]);
   }
@@ -413,6 +416,24 @@ struct Whole {
   double volume = 0;  // six times, below 0 where it is turned inwards
 };
 
+// Whether a closed component is turned inwards.
+bool hasInwards(const TriangleSoup& soup, const Progress& progress) {
+  if (std::ranges::none_of(soup.componentClosed, [](std::uint8_t closed) { return closed != 0; }))
+    return false;
+  std::vector<double> volumes(soup.componentClosed.size());
+  std::vector<std::uint32_t> first(volumes.size(), TriangleSoup::kNone);
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    if (looksUp(t)) progress.check();
+    const std::uint32_t c = soup.component[t];
+    if (!soup.componentClosed[c]) continue;
+    if (first[c] == TriangleSoup::kNone) first[c] = t;
+    const Vec3d base = soup.points[soup.triangles[first[c]][0]];
+    const auto [p, q, r] = cornersOf(soup, t);
+    volumes[c] += dot(p - base, cross(q - base, r - base));
+  }
+  return std::ranges::any_of(volumes, [](double volume) { return volume < 0; });
+}
+
 std::vector<Whole> wholes(const TriangleSoup& soup, const Progress& progress) {
   std::vector<Whole> result(soup.componentClosed.size());
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
@@ -448,6 +469,7 @@ bool liesBeside(const Corners& t, const TriangleTree& surface, double reach) {
 void dropInnerSides(TriangleSoup& soup, const Progress& progress) {
   constexpr double kThin = 0.25;  // what a surface is right to where triangles cross, too
   constexpr double kAlike = 1.5;  // of areas
+  if (!hasInwards(soup, progress)) return;
   const std::vector<Whole> all = wholes(soup, progress);
   std::vector<std::uint32_t> inner, outer;
   for (std::uint32_t c = 0; c < all.size(); ++c)
