@@ -412,14 +412,11 @@ void describe(TriangleSoup& soup, const Progress& progress) {
 struct Whole {
   std::vector<std::uint32_t> triangles;
   Box3d box;
-  double area = 0;    // twice
-  double volume = 0;  // six times, below 0 where it is turned inwards
+  double area = 0;  // twice
 };
 
-// Whether a closed component is turned inwards.
-bool hasInwards(const TriangleSoup& soup, const Progress& progress) {
-  if (std::ranges::none_of(soup.componentClosed, [](std::uint8_t closed) { return closed != 0; }))
-    return false;
+// Six times the volume of each closed component, below 0 where it is turned inwards; 0 of others.
+std::vector<double> volumesOf(const TriangleSoup& soup, const Progress& progress) {
   std::vector<double> volumes(soup.componentClosed.size());
   std::vector<std::uint32_t> first(volumes.size(), TriangleSoup::kNone);
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
@@ -431,7 +428,7 @@ bool hasInwards(const TriangleSoup& soup, const Progress& progress) {
     const auto [p, q, r] = cornersOf(soup, t);
     volumes[c] += dot(p - base, cross(q - base, r - base));
   }
-  return std::ranges::any_of(volumes, [](double volume) { return volume < 0; });
+  return volumes;
 }
 
 std::vector<Whole> wholes(const TriangleSoup& soup, const Progress& progress) {
@@ -440,11 +437,8 @@ std::vector<Whole> wholes(const TriangleSoup& soup, const Progress& progress) {
     if (looksUp(t)) progress.check();
     Whole& whole = result[soup.component[t]];
     const auto [a, b, c] = cornersOf(soup, t);
-    const Vec3d base =
-        whole.triangles.empty() ? a : soup.points[soup.triangles[whole.triangles[0]][0]];
     for (const Vec3d& corner : {a, b, c}) whole.box.add(corner);
     whole.area += length(cross(b - a, c - a));
-    whole.volume += dot(a - base, cross(b - base, c - base));
     whole.triangles.push_back(t);
   }
   return result;
@@ -469,11 +463,12 @@ bool liesBeside(const Corners& t, const TriangleTree& surface, double reach) {
 void dropInnerSides(TriangleSoup& soup, const Progress& progress) {
   constexpr double kThin = 0.25;  // what a surface is right to where triangles cross, too
   constexpr double kAlike = 1.5;  // of areas
-  if (!hasInwards(soup, progress)) return;
+  const std::vector<double> volumes = volumesOf(soup, progress);
+  if (std::ranges::none_of(volumes, [](double volume) { return volume < 0; })) return;
   const std::vector<Whole> all = wholes(soup, progress);
   std::vector<std::uint32_t> inner, outer;
   for (std::uint32_t c = 0; c < all.size(); ++c)
-    if (soup.componentClosed[c]) (all[c].volume < 0 ? inner : outer).push_back(c);
+    if (soup.componentClosed[c]) (volumes[c] < 0 ? inner : outer).push_back(c);
   const auto before = [&](std::uint32_t c, std::uint32_t d) {
     return std::tuple(all[c].box.min.x, c) < std::tuple(all[d].box.min.x, d);
   };
